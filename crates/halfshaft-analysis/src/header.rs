@@ -1,0 +1,29 @@
+//! The head of every result.
+
+use halfshaft_model::question::Question;
+use halfshaft_model::{Driveline, question::Verb};
+use halfshaft_results::{Header, ModelIdentity, Termination};
+
+/// The head of an answer to `question` about `line` that was answered in full.
+pub(crate) fn header(line: &Driveline, verb: Verb, question: &Question) -> Header {
+    Header {
+        analysis: verb.name().to_owned(),
+        model: ModelIdentity { name: line.name().to_owned(), digest: line.digest() },
+        settings: settings(question),
+        termination: Termination::completed(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        warnings: Vec::new(),
+        assumptions: Vec::new(),
+    }
+}
+
+/// The settings of a question as JSON, without the name of the question around them.
+fn settings(question: &Question) -> serde_json::Value {
+    // Questions are plain data, which JSON can always hold.
+    match serde_json::to_value(question) {
+        Ok(serde_json::Value::Object(object)) => {
+            object.into_iter().next().map_or(serde_json::Value::Null, |(_, inner)| inner)
+        }
+        _ => serde_json::json!({}),
+    }
+}

@@ -1,0 +1,63 @@
+//! The questions halfshaft answers about a driveline.
+//!
+//! In goes a line and a [`Question`], out comes an [`Answer`] ([`ask`]). One folder a question,
+//! all of one shape: the question's settings come from `halfshaft-model`, `solve` turns them into
+//! the result. Nothing here knows text or screens.
+//!
+//! | folder | question | method |
+//! |---|---|---|
+//! | `check` | is the model sound? | reduced inertias, ratios |
+//! | `equilibrium` | `static` | all roots of the torque laws |
+//! | `modal` | `modes` | symmetric eigenproblem without the rigid-body motion |
+//! | `time_response` | `simulate` | order 8, dense output, energy balance |
+//! | `shock` | `shock` | the same, single equations, multiple scales |
+//! | `averaging` | `resonance`, `folds` | closed form of one mode |
+//! | `verification` | what the full equations say | shooting |
+
+mod averaging;
+mod check;
+mod equilibrium;
+mod error;
+mod header;
+mod modal;
+mod shock;
+mod time_response;
+mod verification;
+
+use halfshaft_model::Driveline;
+use halfshaft_model::question::{Question, ResonanceMethod};
+use halfshaft_numerics::observer::Observer;
+use halfshaft_results::Answer;
+
+pub use error::AnalysisError;
+
+/// Answers a question about a line.
+///
+/// An analysis that ends early returns what it reached, with the reason in the answer's
+/// termination.
+///
+/// # Errors
+/// [`AnalysisError`] where nothing usable could be produced.
+pub fn ask(
+    line: &Driveline,
+    question: &Question,
+    observer: &dyn Observer,
+) -> Result<Answer, AnalysisError> {
+    Ok(match question {
+        Question::Check => Answer::Check(check::solve(line)?),
+        Question::Static => Answer::Static(equilibrium::solve(line)?),
+        Question::Modes(question) => Answer::Modes(modal::solve(line, question)?),
+        Question::Simulate(question) => {
+            Answer::History(time_response::solve(line, question, observer)?)
+        }
+        Question::Shock(question) => Answer::History(shock::solve(line, question, observer)?),
+        Question::Resonance(question) => match question.method {
+            ResonanceMethod::Averaged => {
+                Answer::Resonance(averaging::solve(line, question, observer)?)
+            }
+        },
+        Question::Folds(question) => match question.method {
+            ResonanceMethod::Averaged => Answer::Folds(averaging::solve_folds(line, question)?),
+        },
+    })
+}

@@ -1,0 +1,163 @@
+//! Damped eigenvalues, two for each undamped mode.
+//!
+//! In modal coordinates `η'' + Γ η' + Λ η = 0` with `Γ = Φᵀ C Φ`. Where `Γ` is diagonal every
+//! mode is a quadratic of its own. Else the first-order matrix gives the eigenvalues, and each
+//! is given to the mode that moves most in its eigenvector.
+
+use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_numerics::Complex;
+use halfshaft_numerics::dense::{Matrix, eigen};
+
+use super::elastic::ElasticMode;
+use crate::error::{AnalysisError, Doing};
+
+/// Damped eigenvalues of the modes, and of the rigid-body motion where there is one.
+pub(super) struct DampedPairs {
+    pub(super) elastic: Vec<[Complex; 2]>,
+    pub(super) rigid: Option<[Complex; 2]>,
+}
+
+/// Coupling below this part of the diagonal counts as none.
+const UNCOUPLED: f64 = 1e-13;
+
+/// Damped eigenvalues of a line about an equilibrium whose undamped modes are given.
+pub(super) fn damped(
+    equations: &EquationsOfMotion,
+    modes: &[ElasticMode],
+) -> Result<DampedPairs, AnalysisError> {
+    let damping = equations.damping_matrix();
+    let mut shapes: Vec<&[f64]> = modes.iter().map(|mode| mode.shape.as_slice()).collect();
+    let rigid_shape: Option<Vec<f64>> = equations.rigid.as_ref().map(|rigid| {
+        let length = rigid.inertia.sqrt();
+        rigid.speeds.iter().map(|r| r / length).collect()
+    });
+    shapes.extend(rigid_shape.as_deref());
+    let modal = projected(&damping, &shapes);
+    if is_diagonal(&modal) {
+        let pair = |index: usize, stiffness: f64| quadratic(modal[(index, index)], stiffness);
+        return Ok(DampedPairs {
+            elastic: modes.iter().enumerate().map(|(i, m)| pair(i, m.eigenvalue)).collect(),
+            rigid: rigid_shape.map(|_| pair(modes.len(), 0.0)),
+        });
+    }
+    coupled(&modal, modes, rigid_shape.is_some())
+}
+
+/// `shapesᵀ matrix shapes`.
+fn projected(matrix: &Matrix, shapes: &[&[f64]]) -> Matrix {
+    let images: Vec<Vec<f64>> = shapes
+        .iter()
+        .map(|shape| (0..shape.len()).map(|row| dot(matrix.row(row), shape)).collect())
+        .collect();
+    Matrix::from_fn(shapes.len(), shapes.len(), |i, j| dot(shapes[i], &images[j]))
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn is_diagonal(matrix: &Matrix) -> bool {
+    let n = matrix.rows();
+    (0..n).all(|i| {
+        (0..n).filter(|j| *j != i).all(|j| {
+            let size = (matrix[(i, i)] * matrix[(j, j)]).abs().sqrt();
+            matrix[(i, j)].abs() <= UNCOUPLED * size.max(f64::MIN_POSITIVE)
+        })
+    })
+}
+
+/// Roots of `λ² + damping λ + stiffness = 0`, without cancellation.
+fn quadratic(damping: f64, stiffness: f64) -> [Complex; 2] {
+    let half = damping / 2.0;
+    let discriminant = half * half - stiffness;
+    if discriminant < 0.0 {
+        let imaginary = (-discriminant).sqrt();
+        return [Complex::new(-half, imaginary), Complex::new(-half, -imaginary)];
+    }
+    let fast = -(half + discriminant.sqrt());
+    let slow = if fast == 0.0 { 0.0 } else { stiffness / fast };
+    [Complex::from(slow), Complex::from(fast)]
+}
+
+fn coupled(
+    modal: &Matrix,
+    modes: &[ElasticMode],
+    has_rigid: bool,
+) -> Result<DampedPairs, AnalysisError> {
+    // State: elastic displacements, then all speeds, the rigid one last.
+    let (n, speeds) = (modes.len(), modal.rows());
+    let matrix = Matrix::from_fn(n + speeds, n + speeds, |row, column| {
+        if row < n {
+            return if column == n + row { 1.0 } else { 0.0 };
+        }
+        let speed = row - n;
+        if column < n {
+            return if column == speed { -modes[speed].eigenvalue } else { 0.0 };
+        }
+        -modal[(speed, column - n)]
+    });
+    let solution = eigen(&matrix).doing("computing damped frequencies")?;
+    let mut slots: Vec<Vec<Complex>> = vec![Vec::new(); speeds];
+    for (value, vector) in candidates(&solution.values, &solution.vectors) {
+        // A rigid-body motion has one eigenvalue besides zero, an elastic mode has two.
+        let room = |mode: usize| {
+            let full = if mode < n { 2 } else { 1 };
+            let needed = if value.im == 0.0 { 1 } else { 2 };
+            slots[mode].len() + needed <= full
+        };
+        let share = |mode: &usize| vector[n + *mode].modulus();
+        let best =
+            (0..speeds).filter(|mode| room(*mode)).max_by(|a, b| share(a).total_cmp(&share(b)));
+        if let Some(mode) = best {
+            slots[mode].push(value);
+            if value.im != 0.0 {
+                slots[mode].push(value.conjugate());
+            }
+        }
+    }
+    let pair = |slot: &Vec<Complex>| {
+        let at = |index: usize| slot.get(index).copied().unwrap_or_default();
+        let (a, b) = (at(0), at(1));
+        if a.im == 0.0 && b.re > a.re { [b, a] } else { [a, b] }
+    };
+    Ok(DampedPairs {
+        elastic: slots[..n].iter().map(pair).collect(),
+        rigid: has_rigid.then(|| [Complex::default(), pair(&slots[n])[0]]),
+    })
+}
+
+/// Eigenvalues with one of each conjugate pair, those of the clearest eigenvectors first.
+fn candidates<'v>(
+    values: &[Complex],
+    vectors: &'v [Vec<Complex>],
+) -> Vec<(Complex, &'v Vec<Complex>)> {
+    let mut list: Vec<(Complex, &Vec<Complex>)> =
+        values.iter().copied().zip(vectors).filter(|(value, _)| value.im >= 0.0).collect();
+    let clarity = |(value, vector): &(Complex, &Vec<Complex>)| {
+        let largest = vector.iter().map(|entry| entry.modulus()).fold(0.0, f64::max);
+        // Oscillating pairs need two free places, so they choose first.
+        (value.im != 0.0, largest)
+    };
+    list.sort_by(|a, b| {
+        let (a, b) = (clarity(a), clarity(b));
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Source: Vieta's formulas.
+    #[test]
+    fn quadratic_pairs_satisfy_vieta_also_when_overdamped() {
+        for (damping, stiffness) in [(0.1, 679.0), (1e6, 1.0), (2.0, 1.0), (3.0, 0.0), (0.0, 4.0)] {
+            let [a, b] = quadratic(damping, stiffness);
+            let (sum, product) = (a + b, a * b);
+            assert!((sum.re + damping).abs() <= 1e-14 * damping.max(1.0));
+            assert!((product.re - stiffness).abs() <= 1e-14 * stiffness.max(1.0));
+            assert!(sum.im.abs() < 1e-14 && product.im.abs() < 1e-10);
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! From a line to the answer of `simulate`.
+
+use halfshaft_dynamics::{Active, EquationsOfMotion, Motion};
+use halfshaft_model::Driveline;
+use halfshaft_model::question::{Question, SimulateQuestion, Start, Verb};
+use halfshaft_numerics::observer::Observer;
+use halfshaft_results::{Column, EnergyBalance, Header, HistoryMetrics, HistoryResult, Named};
+
+use super::initial::start_state;
+use super::recorder::Recorder;
+use super::run::{Run, RunSettings, run};
+use crate::error::AnalysisError;
+use crate::header::header;
+
+/// Parts of the recorded time that a history has by default.
+pub(crate) const DEFAULT_PARTS: f64 = 2000.0;
+
+/// Answers `simulate`.
+pub(crate) fn solve(
+    line: &Driveline,
+    question: &SimulateQuestion,
+    observer: &dyn Observer,
+) -> Result<HistoryResult, AnalysisError> {
+    let equations = EquationsOfMotion::new(line)?;
+    let active = Active::all(question.frequency);
+    let mut motion = Motion::new(&equations, active, true);
+    let state = start_state(line, &mut motion, question.start, &question.initial)?;
+    let record = question.record.unwrap_or((0.0, question.duration));
+    let settings = RunSettings {
+        active,
+        duration: question.duration,
+        tolerance: question.tolerance,
+        step: question.step.unwrap_or((record.1 - record.0) / DEFAULT_PARTS),
+        record,
+        follow: false,
+    };
+    let run = run(&equations, &state, &settings, observer)?;
+
+    let mut header = header(line, Verb::Simulate, &Question::Simulate(question.clone()));
+    header.termination = run.termination.clone();
+    header.assumptions.push(start_sentence(question));
+    let orders = equations.excitation.orders();
+    if question.frequency.is_none() && !orders.is_empty() {
+        header.warnings.push(
+            "torques of an order are silent, because no excitation speed was given; add \
+             --frequency"
+                .to_owned(),
+        );
+    }
+    energy_warning(&mut header, &run.energy, question.tolerance);
+    let metrics = HistoryMetrics {
+        shafts: Named::new(),
+        channels: channel_metrics(&run.recorder),
+        energy_balance: Some(run.energy),
+        steps: run.steps,
+        evaluations: run.evaluations,
+    };
+    let Run { recorder, .. } = run;
+    Ok(HistoryResult { header, columns: history_columns(recorder), metrics, shock: None })
+}
+
+fn start_sentence(question: &SimulateQuestion) -> String {
+    let from = match question.start {
+        Start::Rest => "everything at zero (--start equilibrium begins in steady running)",
+        Start::Equilibrium => "the stable equilibrium under the mean torques",
+    };
+    if question.initial.is_empty() {
+        return format!("the run starts from {from}");
+    }
+    let values: Vec<String> = question
+        .initial
+        .iter()
+        .map(|value| {
+            let unit = value.channel.quantity.kind().si_unit();
+            format!("{} = {} {unit}", value.channel.name(), value.value)
+        })
+        .collect();
+    format!("the run starts from {from}, with {}", values.join(", "))
+}
+
+/// The history as columns: time, then the channels.
+pub(crate) fn history_columns(recorder: Recorder<'_>) -> Vec<Column> {
+    let mut columns = vec![Column::new("time", "s", recorder.times().to_vec())];
+    let names: Vec<(String, &str)> =
+        recorder.channels().list.iter().map(|info| (info.name.clone(), info.unit)).collect();
+    for ((name, unit), values) in names.into_iter().zip(recorder.history) {
+        columns.push(Column::new(name, unit, values));
+    }
+    columns
+}
+
+/// Extremes of every channel.
+pub(crate) fn channel_metrics(recorder: &Recorder<'_>) -> Named<halfshaft_results::ChannelMetrics> {
+    let list = &recorder.channels().list;
+    list.iter().enumerate().map(|(i, info)| (info.name.clone(), recorder.metrics(i))).collect()
+}
+
+/// Warns where the energy does not close to what the tolerance promises.
+pub(crate) fn energy_warning(header: &mut Header, energy: &EnergyBalance, tolerance: f64) {
+    // Errors of many steps add up; a thousand tolerances is where they begin to matter.
+    if energy.relative_residual > 1e3 * tolerance.max(1e-15) {
+        header.warnings.push(format!(
+            "the energy balance is open by {:.2e} of the energy turned over; ask for a tighter \
+             --tolerance",
+            energy.relative_residual
+        ));
+    }
+}

@@ -1,0 +1,17 @@
+//! Time histories of the full equations, the last word on every other answer.
+//!
+//! [`run`] integrates from a state to an end time, restarting where pulses begin and end, and
+//! shows every step to a [`recorder`], which fills the history and finds turning points on
+//! the dense output. Work and heat are integrated beside the motion, so that the energy
+//! balance of a run measures its error.
+
+mod answer;
+mod channels;
+mod initial;
+mod recorder;
+mod run;
+
+pub(crate) use answer::{DEFAULT_PARTS, channel_metrics, energy_warning, history_columns, solve};
+pub(crate) use initial::start_state;
+pub(crate) use recorder::{Recorder, TracePoint, TurningPoint};
+pub(crate) use run::{Run, RunSettings, run};

@@ -1,0 +1,420 @@
+//! What the command line takes.
+
+use std::path::PathBuf;
+
+use clap::builder::styling::{AnsiColor, Styles};
+use clap::{Args, Parser, Subcommand};
+use halfshaft::{QuestionText, Verb};
+
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+/// Nonlinear torsional dynamics of automotive drivelines.
+///
+/// Give it a driveline in one readable file and ask: how far does it wind up, how much torque can
+/// it carry, where does it resonate, how does it take a shock, when does its response jump?
+#[derive(Debug, Parser)]
+#[command(
+    name = "halfshaft",
+    version,
+    styles = STYLES,
+    max_term_width = 100,
+    after_help = "Examples:
+  halfshaft report                        everything about the built-in example, in report.html
+  halfshaft new my-line.toml              a model file to start from
+  halfshaft check my-line.toml            is it sound?
+  halfshaft static my-line.toml           how far does it wind up, how much can it carry?
+  halfshaft resonance my-line.toml --verify --out response.svg
+
+Without MODEL, the built-in two-mass driveline with a softening half-shaft is used.
+Values carry units (\"6420 N·m/rad\", \"2500 rpm\", \"20 ms\"); bare numbers are in SI.
+Exit status: 0 done, 1 the analysis could not be carried out, 2 bad input or usage."
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub common: Common,
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Flags of every command.
+#[derive(Args, Debug)]
+pub struct Common {
+    /// Change a number of the model: "half-shaft.cubic=-500 N·m/rad³" (repeatable)
+    #[arg(
+        long = "set",
+        value_name = "ADDRESS=VALUE",
+        global = true,
+        help_heading = "Common flags"
+    )]
+    pub settings: Vec<String>,
+    /// Print the result as JSON and nothing else
+    #[arg(long, global = true, help_heading = "Common flags")]
+    pub json: bool,
+    /// Write the result: .json .csv .parquet .svg .png .html by its ending, all of them into a folder
+    #[arg(long, value_name = "FILE_OR_FOLDER", global = true, help_heading = "Common flags")]
+    pub out: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(long, short, global = true, help_heading = "Common flags")]
+    pub quiet: bool,
+}
+
+/// What can be done.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    #[command(flatten)]
+    Ask(Ask),
+    /// Everything about a driveline in one self-contained HTML page
+    ///
+    /// Summary in plain words first, then static, modes, shock, resonance and fold curves with
+    /// figures to zoom and read off, and the closed forms held against integration.
+    #[command(after_help = "Examples:
+  halfshaft report                               the built-in example, in report.html
+  halfshaft report my-line.toml --out line.html
+  halfshaft report --set \"half-shaft.cubic=642\"")]
+    Report(Report),
+    /// Ask a list of questions from a study file
+    ///
+    /// A study names a model, asks questions of it, draws figures from the answers and compares
+    /// numbers with printed ones. --out FOLDER writes a page, the figures and the comparison.
+    #[command(after_help = "Example:
+  halfshaft run examples/two-mass-driveline/paper.toml --out paper/")]
+    Run(Run),
+    #[command(flatten)]
+    Author(Author),
+}
+
+/// Questions about a line.
+#[derive(Debug, Subcommand)]
+pub enum Ask {
+    /// Is the model sound? A summary of it
+    #[command(after_help = "Examples:
+  halfshaft check my-line.toml
+  halfshaft check my-line.toml --out line.svg      a sketch of the line")]
+    Check(Model),
+    /// All states of rest under the mean torques, and the torque capacity
+    #[command(after_help = "Examples:
+  halfshaft static my-line.toml
+  halfshaft static --set gearbox.ratio=1.79         the built-in example in another gear
+  halfshaft static --out wind-up.svg                torque over twist")]
+    Static(Model),
+    /// Natural frequencies, damping and mode shapes about the state of rest
+    #[command(after_help = "Examples:
+  halfshaft modes my-line.toml
+  halfshaft modes --json | jq '.modes[].frequency'")]
+    Modes(Modes),
+    /// A time history of the full equations
+    ///
+    /// Torques act from time 0 on. The channels are <shaft>.twist, .twist_rate, .torque (spring
+    /// and damper together) and <node>.angle, .speed.
+    #[command(after_help = "Examples:
+  halfshaft simulate my-line.toml --duration 2s --out history.csv
+  halfshaft simulate --start equilibrium --frequency 200rpm --out history.svg
+  halfshaft simulate --initial \"half-shaft.twist=1 rad\" --tolerance 1e-12
+  halfshaft simulate --frequency 26rad/s --duration 700s --record 500s..700s")]
+    Simulate(Simulate),
+    /// The response to a torque pulse or an initial twist, with metrics
+    ///
+    /// Without --initial the pulses of the model disturb the line; with it, the initial state does.
+    ///
+    /// Methods: full (the whole line; the one to trust), clamped (the load with the drive end
+    /// held), published (equation (14) of Han and He 2018 as printed, which doubles stiffness and
+    /// damping), multiple-scales (closed form, --order 1 or 2, of --equation published, clamped or
+    /// twist). In the last three, twist and twist_rate stand for θ, the advance of the load end over the
+    /// equilibrium, and an initial twist is θ(0).
+    #[command(after_help = "Examples:
+  halfshaft shock my-line.toml --compare --out shock.svg
+  halfshaft shock --method published --initial \"half-shaft.twist=1 rad\"
+  halfshaft shock --method multiple-scales --order 1 --equation twist")]
+    Shock(Shock),
+    /// Periodic responses over excitation speed: all branches, stability, folds
+    ///
+    /// The method averaged answers in closed form for one mode near its resonance. The scaling to
+    /// x'' + omega_1² x + alpha x³ + beta x' = f cos((omega_1 + sigma) t) is always printed; the
+    /// columns sigma and rho are in its variables.
+    #[command(after_help = "Examples:
+  halfshaft resonance my-line.toml --verify
+  halfshaft resonance --frequency 3Hz..5Hz --out response.svg
+  halfshaft resonance --set \"engine torque.amplitude=900\" --json")]
+    Resonance(Resonance),
+    /// Fold curves in a plane of excitation speed and one parameter, with cusps
+    ///
+    /// The parameter is any number of the model by its address, or a coefficient of the scaled
+    /// equation: mode.alpha, mode.beta, mode.f, mode.omega_1.
+    #[command(after_help = "Examples:
+  halfshaft folds --parameter \"engine torque.amplitude=100..2000\"
+  halfshaft folds --parameter \"half-shaft.damping=1..100 N·m·s/rad\" --out folds.svg
+  halfshaft folds --parameter \"mode.f=1..20\"")]
+    Folds(Folds),
+}
+
+/// The model that is asked about.
+#[derive(Args, Debug)]
+pub struct Model {
+    /// Model file (TOML); without it the built-in example
+    #[arg(value_name = "MODEL")]
+    pub model: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub struct Modes {
+    #[command(flatten)]
+    pub model: Model,
+    /// Which equilibrium, as `static` numbers them [default: the stable one nearest zero twist]
+    #[arg(long, value_name = "N")]
+    pub equilibrium: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub struct Simulate {
+    #[command(flatten)]
+    pub model: Model,
+    /// End of the time history [default: 5s]
+    #[arg(long, value_name = "TIME")]
+    pub duration: Option<String>,
+    /// Begin at rest (everything zero) or in the stable equilibrium [default: rest]
+    #[arg(long, value_name = "rest|equilibrium")]
+    pub start: Option<String>,
+    /// A value at time 0: "half-shaft.twist=1 rad", "engine.speed=900 rpm" (repeatable)
+    #[arg(long, value_name = "CHANNEL=VALUE")]
+    pub initial: Vec<String>,
+    /// Excitation speed Ω for torques of an order, e.g. 4Hz or 240rpm
+    #[arg(long, value_name = "SPEED")]
+    pub frequency: Option<String>,
+    /// Output step [default: a two-thousandth of what is recorded]
+    #[arg(long, value_name = "TIME")]
+    pub step: Option<String>,
+    /// Relative tolerance of the integration [default: 1e-10]
+    #[arg(long, value_name = "NUMBER")]
+    pub tolerance: Option<String>,
+    /// Times to keep and to measure, e.g. 500s..700s [default: all]
+    #[arg(long, value_name = "A..B")]
+    pub record: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub struct Shock {
+    #[command(flatten)]
+    pub model: Model,
+    /// full, clamped, published or multiple-scales [default: full]
+    #[arg(long, value_name = "METHOD")]
+    pub method: Option<String>,
+    /// Order of multiple scales, 1 or 2 [default: 2]
+    #[arg(long, value_name = "1|2")]
+    pub order: Option<String>,
+    /// Which equation multiple scales solve: published, clamped or twist [default: published]
+    #[arg(long, value_name = "EQUATION")]
+    pub equation: Option<String>,
+    /// Disturb by an initial value in place of the model's pulses (repeatable)
+    #[arg(long, value_name = "CHANNEL=VALUE")]
+    pub initial: Vec<String>,
+    /// End of the time history [default: 5s]
+    #[arg(long, value_name = "TIME")]
+    pub duration: Option<String>,
+    /// Output step [default: a two-thousandth of the duration]
+    #[arg(long, value_name = "TIME")]
+    pub step: Option<String>,
+    /// Relative tolerance of the integration [default: 1e-10]
+    #[arg(long, value_name = "NUMBER")]
+    pub tolerance: Option<String>,
+    /// Answer by all methods side by side
+    #[arg(long)]
+    pub compare: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct Resonance {
+    #[command(flatten)]
+    pub model: Model,
+    /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz [default: about the resonance]
+    #[arg(long, value_name = "A..B")]
+    pub frequency: Option<String>,
+    /// How: averaged (closed form of one mode) [default: averaged]
+    #[arg(long, value_name = "METHOD")]
+    pub method: Option<String>,
+    /// Which elastic mode [default: 1]
+    #[arg(long, value_name = "N")]
+    pub mode: Option<String>,
+    /// Which order of the torques [default: every order that meets the mode in the range]
+    #[arg(long, value_name = "ORDER")]
+    pub order: Option<String>,
+    /// At how many speeds all responses are listed [default: 1000]
+    #[arg(long, value_name = "N")]
+    pub points: Option<String>,
+    /// Hold chosen responses against periodic orbits of the full equations
+    #[arg(long)]
+    pub verify: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct Folds {
+    #[command(flatten)]
+    pub model: Model,
+    /// The other axis: "half-shaft.cubic=-700..0"
+    #[arg(long, value_name = "ADDRESS=A..B")]
+    pub parameter: Option<String>,
+    /// Range of the excitation speed Ω [default: all]
+    #[arg(long, value_name = "A..B")]
+    pub frequency: Option<String>,
+    /// How: averaged (closed form of one mode) [default: averaged]
+    #[arg(long, value_name = "METHOD")]
+    pub method: Option<String>,
+    /// Which elastic mode [default: 1]
+    #[arg(long, value_name = "N")]
+    pub mode: Option<String>,
+    /// Which order of the torques [default: the one that drives the mode most]
+    #[arg(long, value_name = "ORDER")]
+    pub order: Option<String>,
+    /// About how many points describe a curve [default: 200]
+    #[arg(long, value_name = "N")]
+    pub points: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub struct Report {
+    #[command(flatten)]
+    pub model: Model,
+}
+
+#[derive(Args, Debug)]
+pub struct Run {
+    /// Study file (TOML)
+    #[arg(value_name = "STUDY")]
+    pub study: PathBuf,
+}
+
+/// Helpers for whoever writes model files.
+#[derive(Debug, Subcommand)]
+pub enum Author {
+    /// Write a model file to start from
+    #[command(after_help = "Example:
+  halfshaft new my-line.toml")]
+    New(New),
+    /// Print the JSON schema of model or study files, for editors
+    #[command(after_help = "Example:
+  halfshaft schema > halfshaft.schema.json     then, at the head of a model file:
+  #:schema halfshaft.schema.json")]
+    Schema(Schema),
+    /// Print shell completions
+    #[command(after_help = "Example:
+  halfshaft completions bash > ~/.local/share/bash-completion/completions/halfshaft")]
+    Completions(Completions),
+    /// Write the manual pages into a folder
+    #[command(after_help = "Example:
+  halfshaft man ~/.local/share/man/man1")]
+    Man(Man),
+    /// Write the reference pages (Markdown) into a folder
+    #[command(hide = true)]
+    Reference(Man),
+}
+
+#[derive(Args, Debug)]
+pub struct New {
+    /// File to write [default: line.toml]
+    #[arg(value_name = "FILE", default_value = "line.toml", hide_default_value = true)]
+    pub file: PathBuf,
+    /// Overwrite a file that is there already
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct Schema {
+    /// Of which file: model or study
+    #[arg(value_name = "model|study", default_value = "model", value_parser = ["model", "study"])]
+    pub of: String,
+}
+
+#[derive(Args, Debug)]
+pub struct Completions {
+    /// Which shell
+    pub shell: clap_complete::Shell,
+}
+
+#[derive(Args, Debug)]
+pub struct Man {
+    /// Folder to write into
+    #[arg(value_name = "FOLDER", default_value = ".")]
+    pub folder: PathBuf,
+}
+
+impl Ask {
+    /// The verb, the model and the options in words.
+    pub fn question(&self) -> (Verb, &Model, QuestionText) {
+        let none = QuestionText::default();
+        match self {
+            Self::Check(model) => (Verb::Check, model, none),
+            Self::Static(model) => (Verb::Static, model, none),
+            Self::Modes(modes) => {
+                let text = QuestionText { equilibrium: modes.equilibrium.clone(), ..none };
+                (Verb::Modes, &modes.model, text)
+            }
+            Self::Simulate(simulate) => (Verb::Simulate, &simulate.model, simulate.text()),
+            Self::Shock(shock) => (Verb::Shock, &shock.model, shock.text()),
+            Self::Resonance(resonance) => (Verb::Resonance, &resonance.model, resonance.text()),
+            Self::Folds(folds) => (Verb::Folds, &folds.model, folds.text()),
+        }
+    }
+}
+
+impl Simulate {
+    fn text(&self) -> QuestionText {
+        QuestionText {
+            duration: self.duration.clone(),
+            start: self.start.clone(),
+            initial: self.initial.clone(),
+            frequency: self.frequency.clone(),
+            step: self.step.clone(),
+            tolerance: self.tolerance.clone(),
+            record: self.record.clone(),
+            ..QuestionText::default()
+        }
+    }
+}
+
+impl Shock {
+    fn text(&self) -> QuestionText {
+        QuestionText {
+            method: self.method.clone(),
+            order: self.order.clone(),
+            equation: self.equation.clone(),
+            initial: self.initial.clone(),
+            duration: self.duration.clone(),
+            step: self.step.clone(),
+            tolerance: self.tolerance.clone(),
+            compare: self.compare,
+            ..QuestionText::default()
+        }
+    }
+}
+
+impl Resonance {
+    fn text(&self) -> QuestionText {
+        QuestionText {
+            frequency: self.frequency.clone(),
+            method: self.method.clone(),
+            mode: self.mode.clone(),
+            order: self.order.clone(),
+            points: self.points.clone(),
+            verify: self.verify,
+            ..QuestionText::default()
+        }
+    }
+}
+
+impl Folds {
+    fn text(&self) -> QuestionText {
+        QuestionText {
+            parameter: self.parameter.clone(),
+            frequency: self.frequency.clone(),
+            method: self.method.clone(),
+            mode: self.mode.clone(),
+            order: self.order.clone(),
+            points: self.points.clone(),
+            ..QuestionText::default()
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! The questions: check, static, modes, simulate, shock, resonance, folds.
+
+use halfshaft::model::question;
+
+use super::{deliver, load_line, target};
+use crate::args::{Ask, Common};
+use crate::failure::Failure;
+use crate::watch::Watch;
+
+/// Answers a question about a line.
+pub fn run(ask: &Ask, common: &Common, watch: &Watch) -> Result<(), Failure> {
+    let (verb, model, text) = ask.question();
+    let line = load_line(model, common)?;
+    let question = question::read(verb, &text, &line).map_err(Failure::Options)?;
+    let target = target(common)?;
+    let answer = halfshaft::ask(&line, &question, watch)?;
+    deliver(&answer, target.as_ref(), common, watch)
+}

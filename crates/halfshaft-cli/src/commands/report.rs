@@ -1,0 +1,40 @@
+//! `report`: everything in one page.
+
+use std::path::Path;
+
+use halfshaft::{Answer, present, write};
+
+use super::{load_line, prepare};
+use crate::args::{Common, Report};
+use crate::console;
+use crate::failure::Failure;
+use crate::watch::Watch;
+
+/// Where the report goes when nobody says.
+const DEFAULT: &str = "report.html";
+
+/// Asks everything and writes the page.
+pub fn run(report: &Report, common: &Common, watch: &Watch) -> Result<(), Failure> {
+    let line = load_line(&report.model, common)?;
+    // JSON goes to standard output; a page is then only written where asked for.
+    let path = common.out.as_deref().or((!common.json).then_some(Path::new(DEFAULT)));
+    let target = path.map(prepare).transpose()?;
+    let answer = Answer::Report(Box::new(halfshaft::report(&line, watch)?));
+    if target.is_none() {
+        return super::deliver(&answer, None, common, watch);
+    }
+    watch.finish();
+    watch.heed();
+    if let Some(target) = &target {
+        let written = write(&answer, target, watch)?;
+        if !common.quiet && !common.json {
+            console::say(&present::summary::text(&answer))?;
+        }
+        if !common.quiet {
+            let names: Vec<String> =
+                written.iter().map(|path| path.display().to_string()).collect();
+            console::note(&format!("wrote {}", names.join(", ")));
+        }
+    }
+    if common.json { super::deliver(&answer, None, common, watch) } else { Ok(()) }
+}

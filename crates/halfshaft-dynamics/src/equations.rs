@@ -1,0 +1,182 @@
+//! Inertias and connections of a line with the gears taken out.
+
+use halfshaft_model::elements::MeanTorque;
+use halfshaft_model::{Driveline, End, Network, Topology};
+
+use crate::error::DynamicsError;
+use crate::excitation::Excitation;
+use crate::laws::{PolynomialLaw, TorqueLaw};
+use crate::rigid::RigidBody;
+
+/// A shaft between two groups (or a group and ground): twist
+/// `x = ratio_from q_from - ratio_to q_to`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Connection {
+    /// Name of the shaft.
+    pub name: String,
+    /// Group and ratio of the node at the `from` end; `None` is ground.
+    pub from: End,
+    /// Group and ratio of the node at the `to` end; `None` is ground.
+    pub to: End,
+    /// Torque over twist.
+    pub law: TorqueLaw,
+    /// Viscous damping in parallel, N·m·s/rad.
+    pub damping: f64,
+}
+
+/// A node of the line: it turns at `ratio` times its group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodePlace {
+    /// Name of the node.
+    pub name: String,
+    /// Its group.
+    pub group: usize,
+    /// Its speed over the group's.
+    pub ratio: f64,
+    /// Its own inertia, kg·m².
+    pub inertia: f64,
+}
+
+/// `M q'' + D q' + Σ w (c x' + p(x)) = Q`, one coordinate `q` a group.
+#[derive(Clone, Debug)]
+pub struct EquationsOfMotion {
+    /// Inertia of each group, kg·m², at its reference node.
+    pub inertia: Vec<f64>,
+    /// Damping to ground of each group, N·m·s/rad, at its reference node.
+    pub ground_damping: Vec<f64>,
+    /// Reference node of each group, by index into `nodes`.
+    pub reference: Vec<usize>,
+    /// Shafts in file order.
+    pub connections: Vec<Connection>,
+    /// Nodes of the line.
+    pub nodes: Vec<NodePlace>,
+    /// Spanning tree and loops.
+    pub network: Network,
+    /// The motion without twist; `None` for a line held at ground.
+    pub rigid: Option<RigidBody>,
+    /// External torques.
+    pub excitation: Excitation,
+}
+
+impl EquationsOfMotion {
+    /// The equations of motion of `line`.
+    ///
+    /// # Errors
+    /// [`DynamicsError`] for a line that validation would not have passed.
+    pub fn new(line: &Driveline) -> Result<Self, DynamicsError> {
+        let topology = Topology::of(line)?;
+        let network = Network::of(line, &topology);
+        let nodes = node_places(line, &topology);
+        let count = topology.groups.len();
+        let mut inertia = vec![0.0; count];
+        let mut ground_damping = vec![0.0; count];
+        for (node, element) in nodes.iter().zip(line.inertias()) {
+            // The first nodes are those of the inertias, in the same order.
+            inertia[node.group] += node.ratio * node.ratio * element.inertia_kg_m2;
+            ground_damping[node.group] += node.ratio * node.ratio * element.damping_nm_s_per_rad;
+        }
+        if inertia.iter().any(|value| *value <= 0.0) || !network.unreached.is_empty() {
+            return Err(DynamicsError::Degenerate);
+        }
+        let rigid = (!network.grounded)
+            .then(|| RigidBody::new(network.rigid_speeds(count), &inertia, &ground_damping));
+        let mut excitation = Excitation::new(line, &topology);
+        balance(line, &mut excitation, rigid.as_ref());
+        Ok(Self {
+            reference: topology.groups.iter().map(|group| group.reference).collect(),
+            connections: connections(line, &network),
+            inertia,
+            ground_damping,
+            nodes,
+            network,
+            rigid,
+            excitation,
+        })
+    }
+
+    /// Number of groups, the degrees of freedom.
+    pub fn groups(&self) -> usize {
+        self.inertia.len()
+    }
+
+    /// Index of the connection of that name.
+    pub fn connection(&self, name: &str) -> Option<usize> {
+        self.connections.iter().position(|connection| connection.name == name)
+    }
+
+    /// Index of the node of that name.
+    pub fn node(&self, name: &str) -> Option<usize> {
+        self.nodes.iter().position(|node| node.name == name)
+    }
+
+    /// Twist of connection `index` for group angles `angles`.
+    pub fn twist(&self, index: usize, angles: &[f64]) -> f64 {
+        let connection = &self.connections[index];
+        let end = |end: End| end.map_or(0.0, |(group, ratio)| ratio * angles[group]);
+        end(connection.from) - end(connection.to)
+    }
+
+    /// Adds `scale · w_e` for connection `index` to `out`, one entry a group.
+    pub fn add_direction(&self, index: usize, scale: f64, out: &mut [f64]) {
+        let connection = &self.connections[index];
+        if let Some((group, ratio)) = connection.from {
+            out[group] += scale * ratio;
+        }
+        if let Some((group, ratio)) = connection.to {
+            out[group] -= scale * ratio;
+        }
+    }
+
+    /// Kinetic energy for group speeds `speeds`, J.
+    pub fn kinetic_energy(&self, speeds: &[f64]) -> f64 {
+        self.inertia.iter().zip(speeds).map(|(m, v)| 0.5 * m * v * v).sum()
+    }
+
+    /// Potential energy for twists of all connections, J.
+    pub fn potential_energy(&self, twists: &[f64]) -> f64 {
+        self.connections.iter().zip(twists).map(|(c, x)| c.law.energy(*x)).sum()
+    }
+}
+
+fn node_places(line: &Driveline, topology: &Topology) -> Vec<NodePlace> {
+    let place = |node: &halfshaft_model::Node| NodePlace {
+        name: node.name.clone(),
+        group: node.group,
+        ratio: node.ratio,
+        inertia: node.inertia.map_or(0.0, |index| line.inertias()[index].inertia_kg_m2),
+    };
+    topology.nodes.iter().map(place).collect()
+}
+
+fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
+    line.shafts()
+        .iter()
+        .zip(&network.ends)
+        .map(|(shaft, [from, to])| Connection {
+            name: shaft.name.clone(),
+            from: *from,
+            to: *to,
+            law: TorqueLaw::Polynomial(PolynomialLaw::new(shaft.polynomial())),
+            damping: shaft.damping_nm_s_per_rad,
+        })
+        .collect()
+}
+
+/// Gives the balancing torque, if there is one, the mean that stops the rigid-body motion
+/// from accelerating.
+fn balance(line: &Driveline, excitation: &mut Excitation, rigid: Option<&RigidBody>) {
+    let Some(rigid) = rigid else { return };
+    let balancing = line.torques().iter().position(|torque| torque.mean == MeanTorque::Balance);
+    let Some(balancing) = balancing else { return };
+    let lever = |source: &crate::Source| rigid.speeds[source.group] * source.ratio;
+    let others: f64 = excitation
+        .sources
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| *index != balancing)
+        .map(|(_, source)| lever(source) * source.mean)
+        .sum();
+    let own = &excitation.sources[balancing];
+    let mean = -others / lever(own);
+    excitation.sources[balancing].mean = mean;
+}

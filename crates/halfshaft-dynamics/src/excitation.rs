@@ -1,0 +1,154 @@
+//! External torques over time, as torques on the groups.
+
+use halfshaft_model::elements::{Harmonic, MeanTorque, Pulse, PulseShape};
+use halfshaft_model::{Driveline, Topology};
+
+/// One external torque of the line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Name of the torque.
+    pub name: String,
+    /// Group that it acts on.
+    pub group: usize,
+    /// Speed of its node over the group's: a torque `T` on the node is `ratio · T` on the
+    /// group.
+    pub ratio: f64,
+    /// Mean torque on the node, N·m; follows from the others where it balances them.
+    pub mean: f64,
+    /// Whether the mean follows from the others.
+    pub balances: bool,
+    /// Harmonics with an amplitude.
+    pub harmonics: Vec<Harmonic>,
+    /// A speed of its own in place of Ω, rad/s.
+    pub own_frequency: Option<f64>,
+    /// A part that acts once.
+    pub pulse: Option<Pulse>,
+}
+
+/// Which parts of the torques act.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Active {
+    /// Mean torques.
+    pub mean: bool,
+    /// Excitation speed Ω (rad/s) for harmonics of an order; `None` silences those.
+    pub frequency: Option<f64>,
+    /// Harmonics with a frequency of their own.
+    pub own_frequencies: bool,
+    /// Pulses.
+    pub pulses: bool,
+}
+
+impl Active {
+    /// Everything, at excitation speed `frequency`.
+    pub fn all(frequency: Option<f64>) -> Self {
+        Self { mean: true, frequency, own_frequencies: true, pulses: true }
+    }
+
+    /// Mean torques and pulses only.
+    pub fn shock() -> Self {
+        Self { mean: true, pulses: true, ..Self::default() }
+    }
+
+    /// Mean torques and harmonics of an order, as for periodic responses.
+    pub fn periodic(frequency: f64) -> Self {
+        Self { mean: true, frequency: Some(frequency), ..Self::default() }
+    }
+}
+
+/// All external torques of a line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Excitation {
+    /// One entry a torque, in file order.
+    pub sources: Vec<Source>,
+}
+
+impl Excitation {
+    pub(crate) fn new(line: &Driveline, topology: &Topology) -> Self {
+        let source = |torque: &halfshaft_model::elements::Torque| {
+            let (group, ratio) = topology.place(&torque.on)?;
+            let (mean, balances) = match torque.mean {
+                MeanTorque::Value(value) => (value, false),
+                MeanTorque::Balance => (0.0, true),
+            };
+            let loud = torque.harmonics.iter().filter(|harmonic| harmonic.amplitude_nm != 0.0);
+            Some(Source {
+                name: torque.name.clone(),
+                group,
+                ratio,
+                mean,
+                balances,
+                harmonics: loud.copied().collect(),
+                own_frequency: torque.frequency_rad_s,
+                pulse: torque.pulse.clone(),
+            })
+        };
+        Self { sources: line.torques().iter().filter_map(source).collect() }
+    }
+
+    /// Mean torques on the groups, N·m.
+    pub fn mean(&self, groups: usize) -> Vec<f64> {
+        let mut torques = vec![0.0; groups];
+        for source in &self.sources {
+            torques[source.group] += source.ratio * source.mean;
+        }
+        torques
+    }
+
+    /// Complex amplitude (real, imaginary) on each group of the torques of order `order`:
+    /// `Re[(a + i b) exp(i order Ω t)]`, N·m.
+    pub fn harmonic(&self, groups: usize, order: f64) -> Vec<(f64, f64)> {
+        let mut torques = vec![(0.0, 0.0); groups];
+        for source in self.sources.iter().filter(|source| source.own_frequency.is_none()) {
+            for harmonic in source.harmonics.iter().filter(|h| h.order == order) {
+                let (sin, cos) = harmonic.phase_rad.sin_cos();
+                let amplitude = source.ratio * harmonic.amplitude_nm;
+                torques[source.group].0 += amplitude * cos;
+                torques[source.group].1 += amplitude * sin;
+            }
+        }
+        torques
+    }
+
+    /// Orders at which the line is excited, ascending.
+    pub fn orders(&self) -> Vec<f64> {
+        let free = self.sources.iter().filter(|source| source.own_frequency.is_none());
+        let mut orders: Vec<f64> =
+            free.flat_map(|source| source.harmonics.iter().map(|h| h.order)).collect();
+        orders.sort_by(f64::total_cmp);
+        orders.dedup();
+        orders
+    }
+
+    /// Times at which pulses begin or end, ascending, each once.
+    pub fn breaks(&self) -> Vec<f64> {
+        let pulses = self.sources.iter().filter_map(|source| source.pulse.as_ref());
+        let mut times: Vec<f64> = pulses.flat_map(|pulse| [pulse.start_s, pulse.end_s()]).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// Angular impulses on the groups that come all at once at time `t`, N·m·s.
+    pub fn impulses_at(&self, t: f64, groups: usize) -> Vec<f64> {
+        let mut impulses = vec![0.0; groups];
+        for source in &self.sources {
+            if let Some(pulse) = &source.pulse
+                && pulse.shape == PulseShape::Impulse
+                && pulse.start_s == t
+            {
+                impulses[source.group] += source.ratio * pulse.impulse_nm_s;
+            }
+        }
+        impulses
+    }
+
+    /// Sum of the magnitudes of all torques on the groups: the scale of the loading, N·m.
+    pub fn scale(&self) -> f64 {
+        let of = |source: &Source| {
+            let harmonics: f64 = source.harmonics.iter().map(|h| h.amplitude_nm.abs()).sum();
+            let pulse = source.pulse.as_ref().map_or(0.0, |pulse| pulse.peak_nm.abs());
+            source.ratio.abs() * (source.mean.abs() + harmonics + pulse)
+        };
+        self.sources.iter().map(of).sum()
+    }
+}

@@ -1,0 +1,31 @@
+//! Equations of motion of a torsional driveline.
+//!
+//! In goes a validated [`Driveline`](halfshaft_model::Driveline), out come
+//!
+//! ```text
+//! M q'' + D q' + Σ w_e [ c_e x_e' + p_e(x_e) ] = Q(t),      x_e = w_eᵀ q
+//! ```
+//!
+//! with the gears taken out: one coordinate `q` for each group of nodes that turn rigidly
+//! together. Nothing here knows a solver's settings.
+//!
+//! - [`laws`]: torque over twist, one file a law.
+//! - [`EquationsOfMotion`]: inertias, connections, rigid-body motion, mean torques.
+//! - [`Excitation`]: torques over time.
+//! - [`Motion`]: the same as a first-order system for the integrators, in twists of the
+//!   spanning tree and the mean angle, with work and heat beside it.
+
+mod equations;
+mod error;
+mod excitation;
+pub mod laws;
+mod linear;
+mod motion;
+mod rigid;
+
+pub use equations::{Connection, EquationsOfMotion, NodePlace};
+pub use error::DynamicsError;
+pub use excitation::{Active, Excitation, Source};
+pub use laws::TorqueLaw;
+pub use motion::{Kinematics, Motion};
+pub use rigid::RigidBody;

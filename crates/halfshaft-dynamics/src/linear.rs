@@ -1,0 +1,38 @@
+//! The line linearised about given twists: stiffness and damping matrices.
+
+use halfshaft_numerics::dense::Matrix;
+
+use crate::equations::EquationsOfMotion;
+
+impl EquationsOfMotion {
+    /// Tangent stiffness `Σ w p'(x) wᵀ` about the twists of all connections, groups by groups,
+    /// N·m/rad.
+    pub fn tangent_stiffness(&self, twists: &[f64]) -> Matrix {
+        self.assemble(|index| self.connections[index].law.stiffness(twists[index]))
+    }
+
+    /// Damping `Σ w c wᵀ` plus the dampers to ground, groups by groups, N·m·s/rad.
+    pub fn damping_matrix(&self) -> Matrix {
+        let mut matrix = self.assemble(|index| self.connections[index].damping);
+        for (group, damping) in self.ground_damping.iter().enumerate() {
+            matrix[(group, group)] += damping;
+        }
+        matrix
+    }
+
+    /// `Σ w value wᵀ` over the connections.
+    fn assemble(&self, value: impl Fn(usize) -> f64) -> Matrix {
+        let mut matrix = Matrix::zeros(self.groups(), self.groups());
+        for (index, connection) in self.connections.iter().enumerate() {
+            let value = value(index);
+            let from = connection.from;
+            let to = connection.to.map(|(group, ratio)| (group, -ratio));
+            for (row, row_ratio) in [from, to].into_iter().flatten() {
+                for (column, column_ratio) in [from, to].into_iter().flatten() {
+                    matrix[(row, column)] += value * row_ratio * column_ratio;
+                }
+            }
+        }
+        matrix
+    }
+}

@@ -1,0 +1,215 @@
+//! What is wrong with a text, where, and what to write instead.
+//!
+//! Reading never stops at the first mistake: every stage adds to one [`Diagnostics`] list.
+//! How a diagnostic looks is the face's business; [`Diagnostics::plain`] is a form without
+//! colours for logs and other languages.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+
+/// A text that diagnostics point into: a file, or the value of a flag.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// Path of the file as the user gave it, or the name of the flag.
+    pub name: String,
+    /// The whole text.
+    pub text: String,
+}
+
+impl Source {
+    /// A source of the given name.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// Line and column, both from 1 and the column in characters, of a byte offset.
+    pub fn position(&self, offset: usize) -> (usize, usize) {
+        let mut offset = offset.min(self.text.len());
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let before = &self.text[..offset];
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    }
+
+    /// The text at `span`, cut at the first line end.
+    pub fn excerpt(&self, span: &Range<usize>) -> &str {
+        self.text.get(span.clone()).and_then(|text| text.lines().next()).unwrap_or("")
+    }
+}
+
+/// Whether a diagnostic forbids to go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The model cannot be used.
+    Error,
+    /// The model can be used, but probably does not say what was meant.
+    Warning,
+}
+
+/// A second place that belongs to a diagnostic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Related {
+    /// Bytes in the same source.
+    pub span: Range<usize>,
+    /// What is there.
+    pub label: String,
+}
+
+/// One finding with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// Whether it forbids to go on.
+    pub severity: Severity,
+    /// What is wrong, as a sentence without a full stop.
+    pub message: String,
+    /// Index into [`Diagnostics::sources`].
+    pub source: usize,
+    /// Bytes of the offending text; empty for "the whole file".
+    pub span: Range<usize>,
+    /// Other places that take part.
+    pub related: Vec<Related>,
+    /// What to write instead.
+    pub hint: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error at `span` of source 0.
+    pub fn error(span: Range<usize>, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Error,
+            message: message.into(),
+            source: 0,
+            span,
+            related: Vec::new(),
+            hint: None,
+        }
+    }
+
+    /// A warning at `span` of source 0.
+    pub fn warning(span: Range<usize>, message: impl Into<String>) -> Self {
+        Self { severity: Severity::Warning, ..Self::error(span, message) }
+    }
+
+    /// The same with a hint.
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// The same with a hint where there is one.
+    #[must_use]
+    pub fn maybe_hint(mut self, hint: Option<String>) -> Self {
+        self.hint = hint.or(self.hint);
+        self
+    }
+
+    /// The same with a second place.
+    #[must_use]
+    pub fn related(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
+        self.related.push(Related { span, label: label.into() });
+        self
+    }
+
+    /// The same in another source.
+    #[must_use]
+    pub fn in_source(mut self, source: usize) -> Self {
+        self.source = source;
+        self
+    }
+}
+
+/// All findings about one or more texts, with the texts.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Diagnostics {
+    /// The texts; a diagnostic names one by its index.
+    pub sources: Vec<Source>,
+    /// The findings in the order in which they were made.
+    pub items: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// An empty list about one text.
+    pub fn about(source: Source) -> Self {
+        Self { sources: vec![source], items: Vec::new() }
+    }
+
+    /// Adds a finding.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.items.push(diagnostic);
+    }
+
+    /// Whether anything forbids to go on.
+    pub fn has_errors(&self) -> bool {
+        self.items.iter().any(|item| item.severity == Severity::Error)
+    }
+
+    /// The findings that forbid to go on.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.items.iter().filter(|item| item.severity == Severity::Error)
+    }
+
+    /// The findings that do not forbid to go on.
+    pub fn warnings(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.items.iter().filter(|item| item.severity == Severity::Warning)
+    }
+
+    /// One paragraph a finding, `file:line:column: message`, without colours.
+    pub fn plain(&self) -> String {
+        let mut text = String::new();
+        for item in &self.items {
+            let Some(source) = self.sources.get(item.source) else { continue };
+            let (line, column) = source.position(item.span.start);
+            let word = match item.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+            };
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "{}:{line}:{column}: {word}: {}", source.name, item.message);
+            let excerpt = source.excerpt(&item.span);
+            if !excerpt.is_empty() {
+                let _ = writeln!(text, "  here: {excerpt}");
+            }
+            if let Some(hint) = &item.hint {
+                let _ = writeln!(text, "  hint: {hint}");
+            }
+        }
+        text
+    }
+}
+
+/// The name in `known` that is nearest to `text`, where one is near enough to be meant.
+pub fn did_you_mean<'k>(text: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
+    let folded = text.to_lowercase();
+    known
+        .into_iter()
+        .map(|name| (strsim::damerau_levenshtein(&folded, &name.to_lowercase()), name))
+        .filter(|(distance, name)| *distance <= 1.max(name.chars().count() / 3))
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, name)| format!("did you mean \"{name}\"?"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_lines_and_characters_from_one() {
+        let source = Source::new("line.toml", "a = \"µ\"\nfriction = 1\n");
+        assert_eq!(source.position(0), (1, 1));
+        assert_eq!(source.position(7), (1, 7)); // µ has two bytes and one character
+        assert_eq!(source.position(source.text.find("fric").expect("is there")), (2, 1));
+        assert_eq!(source.position(10_000), (3, 1));
+    }
+
+    #[test]
+    fn near_names_are_offered_and_far_ones_are_not() {
+        assert_eq!(
+            did_you_mean("stifness", ["stiffness", "damping"]).as_deref(),
+            Some("did you mean \"stiffness\"?")
+        );
+        assert_eq!(did_you_mean("colour", ["stiffness", "damping"]), None);
+    }
+}

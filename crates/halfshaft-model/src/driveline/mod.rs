@@ -1,0 +1,144 @@
+//! The validated line: its elements, which nodes turn rigidly together, its digest.
+
+mod digest;
+mod network;
+mod places;
+mod topology;
+mod validate;
+
+use serde::Serialize;
+
+use crate::elements::{Gear, Inertia, Shaft, Torque};
+use crate::parameter::{AddressError, Parameter, resolve};
+
+pub use network::{End, Network, TreeShaft};
+pub(crate) use places::Places;
+pub use topology::{Group, Node, Topology, TopologyError};
+pub(crate) use validate::validate;
+
+/// A driveline that has passed validation and never changes; [`Driveline::with`] makes
+/// another one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Driveline {
+    pub(crate) name: String,
+    pub(crate) description: String,
+    pub(crate) inertias: Vec<Inertia>,
+    pub(crate) gears: Vec<Gear>,
+    pub(crate) shafts: Vec<Shaft>,
+    pub(crate) torques: Vec<Torque>,
+}
+
+/// Why a line cannot be had with another value of a parameter.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ChangeError {
+    /// The address leads nowhere.
+    #[error(transparent)]
+    Address(#[from] AddressError),
+    /// The value has a sign that the key forbids, or is not finite.
+    #[error("{address} = {value} is not allowed: it must {rule}")]
+    Value {
+        /// The parameter.
+        address: String,
+        /// The value in SI.
+        value: f64,
+        /// What it must be.
+        rule: &'static str,
+    },
+    /// The element has no place for the value (a peak of a pulse that is an impulse).
+    #[error("{address} has no value to set")]
+    NoPlace {
+        /// The parameter.
+        address: String,
+    },
+    /// With this value the gears contradict each other.
+    #[error("with {address} = {value}: {reason}")]
+    Gears {
+        /// The parameter.
+        address: String,
+        /// The value in SI.
+        value: f64,
+        /// What contradicts.
+        reason: Box<TopologyError>,
+    },
+}
+
+impl Driveline {
+    /// Name of the line.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Free text about the line.
+    pub fn description(&self) -> &str {
+        &self.description
+    }
+
+    /// Inertias in file order.
+    pub fn inertias(&self) -> &[Inertia] {
+        &self.inertias
+    }
+
+    /// Gears in file order.
+    pub fn gears(&self) -> &[Gear] {
+        &self.gears
+    }
+
+    /// Shafts in file order.
+    pub fn shafts(&self) -> &[Shaft] {
+        &self.shafts
+    }
+
+    /// Torques in file order.
+    pub fn torques(&self) -> &[Torque] {
+        &self.torques
+    }
+
+    /// Names of all elements, which are unique.
+    pub fn element_names(&self) -> impl Iterator<Item = &str> + Clone {
+        let inertias = self.inertias.iter().map(|e| e.name.as_str());
+        let gears = self.gears.iter().map(|e| e.name.as_str());
+        let shafts = self.shafts.iter().map(|e| e.name.as_str());
+        let torques = self.torques.iter().map(|e| e.name.as_str());
+        inertias.chain(gears).chain(shafts).chain(torques)
+    }
+
+    /// The parameter at an address such as `half-shaft.cubic`.
+    ///
+    /// # Errors
+    /// [`AddressError`] where there is no such element or numeric key.
+    pub fn parameter(&self, address: &str) -> Result<Parameter, AddressError> {
+        resolve(self, address)
+    }
+
+    /// The same line with one number changed (SI).
+    ///
+    /// # Errors
+    /// [`ChangeError`] where the value is not allowed there.
+    pub fn with(&self, parameter: &Parameter, value: f64) -> Result<Self, ChangeError> {
+        if !value.is_finite() || !parameter.sign.allows(value) {
+            return Err(ChangeError::Value {
+                address: parameter.address.clone(),
+                value,
+                rule: if value.is_finite() { parameter.sign.rule() } else { "be finite" },
+            });
+        }
+        let mut line = self.clone();
+        if !parameter.set(&mut line, value) {
+            return Err(ChangeError::NoPlace { address: parameter.address.clone() });
+        }
+        if parameter.changes_gears() {
+            Topology::of(&line).map_err(|reason| ChangeError::Gears {
+                address: parameter.address.clone(),
+                value,
+                reason: Box::new(reason),
+            })?;
+        }
+        Ok(line)
+    }
+
+    /// SHA-256 over every value of the line in SI, as hexadecimal text: two files that say
+    /// the same line in different units or order of keys have the same digest.
+    pub fn digest(&self) -> String {
+        digest::of(self)
+    }
+}

@@ -1,0 +1,175 @@
+//! An external torque on a node.
+
+use serde::Serialize;
+
+use super::pulse::{PULSE, Pulse};
+use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
+use crate::units::{QuantityKind, Sign};
+
+/// The steady part of a torque.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MeanTorque {
+    /// So many N·m.
+    Value(f64),
+    /// Whatever keeps the line in steady running against all other mean torques, as a road
+    /// load does at constant speed.
+    Balance,
+}
+
+/// One harmonic of a torque: `amplitude · cos(order Ω t + phase)`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Harmonic {
+    /// Cycles per revolution of the excitation speed Ω; need not be whole.
+    pub order: f64,
+    /// Amplitude, N·m.
+    pub amplitude_nm: f64,
+    /// Phase, rad.
+    pub phase_rad: f64,
+}
+
+/// An external torque, positive in the direction of positive angle:
+/// `mean + Σ amplitude · cos(order Ω t + phase) + pulse(t)`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Torque {
+    /// Name of the element.
+    pub name: String,
+    /// Node it acts on.
+    pub on: String,
+    /// Steady part.
+    pub mean: MeanTorque,
+    /// Harmonic parts; the first is the one of the keys `amplitude`, `order`, `phase`.
+    pub harmonics: Vec<Harmonic>,
+    /// A speed of its own, rad/s, that takes the place of Ω in this torque.
+    pub frequency_rad_s: Option<f64>,
+    /// A part that acts once.
+    pub pulse: Option<Pulse>,
+}
+
+/// The word for a mean torque that balances the others.
+pub(crate) const BALANCE: &str = "balance";
+
+const fn order(doc: &'static str) -> KeySpec {
+    KeySpec::new("order", ValueSpec::Quantity(QuantityKind::Number, Sign::Positive), doc)
+}
+
+const AMPLITUDE: KeySpec = KeySpec::new(
+    "amplitude",
+    ValueSpec::Quantity(QuantityKind::Torque, Sign::Any),
+    "Amplitude of the harmonic part: amplitude · cos(order · Ω t + phase). Default 0.",
+);
+const PHASE: KeySpec = KeySpec::new(
+    "phase",
+    ValueSpec::Quantity(QuantityKind::Angle, Sign::Any),
+    "Phase of the harmonic part. Default 0.",
+);
+
+/// Keys of one entry of `harmonics = [ ... ]`.
+pub static HARMONIC: TableSpec = TableSpec {
+    name: "harmonic",
+    doc: "One more harmonic of a torque.",
+    keys: &[order("Order, cycles per revolution of Ω.").required(), AMPLITUDE.required(), PHASE],
+};
+
+/// Keys of `[[torque]]`.
+pub static TORQUE: TableSpec = TableSpec {
+    name: "torque",
+    doc: "An external torque on a node, positive in the direction of positive angle: \
+          mean + Σ amplitude · cos(order · Ω t + phase) + pulse(t).",
+    keys: &[
+        KeySpec::new("name", ValueSpec::Text, "Name of the element.").required(),
+        KeySpec::new("on", ValueSpec::Node { ground: false }, "Node it acts on.").required(),
+        KeySpec::new(
+            "mean",
+            ValueSpec::QuantityOr(QuantityKind::Torque, Sign::Any, &[BALANCE]),
+            "Steady part; \"balance\" for a load that keeps the line in steady running against \
+             all other mean torques. Default 0.",
+        ),
+        AMPLITUDE,
+        order("Order of the harmonic part: cycles per revolution of Ω. Default 1."),
+        PHASE,
+        KeySpec::new("harmonics", ValueSpec::Tables(&HARMONIC), "Further harmonics."),
+        KeySpec::new(
+            "frequency",
+            ValueSpec::Quantity(QuantityKind::Speed, Sign::Positive),
+            "A fixed speed that takes the place of Ω in this torque, for `simulate`. Optional.",
+        ),
+        KeySpec::new("pulse", ValueSpec::Table(&PULSE), "A part that acts once."),
+    ],
+};
+
+impl Harmonic {
+    fn read(table: &CheckedTable) -> Option<Self> {
+        Some(Self {
+            order: table.number("order")?,
+            amplitude_nm: table.number("amplitude")?,
+            phase_rad: table.number_or("phase", 0.0),
+        })
+    }
+
+    fn parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
+        match key {
+            "order" => Some(&mut self.order),
+            "amplitude" => Some(&mut self.amplitude_nm),
+            "phase" => Some(&mut self.phase_rad),
+            _ => None,
+        }
+    }
+}
+
+impl Torque {
+    pub(crate) fn read(table: &CheckedTable) -> Option<Self> {
+        let main = Harmonic {
+            order: table.number_or("order", 1.0),
+            amplitude_nm: table.number_or("amplitude", 0.0),
+            phase_rad: table.number_or("phase", 0.0),
+        };
+        let mut harmonics = vec![main];
+        for further in table.tables("harmonics") {
+            harmonics.push(Harmonic::read(further)?);
+        }
+        let mean = match table.word("mean") {
+            Some(_) => MeanTorque::Balance,
+            None => MeanTorque::Value(table.number_or("mean", 0.0)),
+        };
+        let pulse = match table.table("pulse") {
+            Some(pulse) => Some(Pulse::read(pulse)?),
+            None => None,
+        };
+        Some(Self {
+            name: table.text("name")?.to_owned(),
+            on: table.text("on")?.to_owned(),
+            mean,
+            harmonics,
+            frequency_rad_s: table.number("frequency"),
+            pulse,
+        })
+    }
+
+    /// The numeric value behind a key of this element: `mean`, `amplitude`, `pulse.peak`,
+    /// `harmonics.1.amplitude` for the first further harmonic.
+    pub fn parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
+        if let Some(key) = key.strip_prefix("pulse.") {
+            return self.pulse.as_mut()?.parameter_mut(key);
+        }
+        if let Some(rest) = key.strip_prefix("harmonics.") {
+            let (index, key) = rest.split_once('.')?;
+            // Entry 0 is the main harmonic, so the first further one is number 1.
+            let index: usize = index.parse().ok().filter(|index| *index > 0)?;
+            return self.harmonics.get_mut(index)?.parameter_mut(key);
+        }
+        match key {
+            "mean" => {
+                if self.mean == MeanTorque::Balance {
+                    self.mean = MeanTorque::Value(0.0);
+                }
+                match &mut self.mean {
+                    MeanTorque::Value(value) => Some(value),
+                    MeanTorque::Balance => None,
+                }
+            }
+            "frequency" => Some(self.frequency_rad_s.get_or_insert(0.0)),
+            _ => self.harmonics.first_mut()?.parameter_mut(key),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! The model file: its keys as data, its reader, its JSON schema and its reference page.
+//!
+//! [`MODEL`] lists every table and key once; [`read_model`] turns a text into the elements
+//! of a line with all errors at once, [`json_schema`] and [`reference_page`] are made from
+//! the same list.
+
+mod limits;
+mod model_file;
+mod reader;
+mod reference;
+mod schema;
+mod spec;
+
+pub use limits::{FileError, LARGEST_FILE, read_file};
+pub use model_file::{MODEL, SetFlag, read_model};
+pub(crate) use reader::{Checked, CheckedTable, read_document};
+pub use reference::reference_page;
+pub use schema::json_schema;
+pub use spec::{KeySpec, TableSpec, ValueSpec};

@@ -1,0 +1,477 @@
+//! From TOML with byte spans to checked values, after a [`TableSpec`], all errors at once.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::spec::{KeySpec, TableSpec, ValueSpec};
+use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
+use crate::range::parse_range;
+use crate::units::{QuantityKind, Sign, parse_quantity};
+
+/// A value that has passed its specification.
+#[derive(Clone, Debug)]
+pub(crate) enum Checked {
+    Text(String),
+    Number(f64),
+    Word(&'static str),
+    Numbers(Vec<f64>),
+    Range(f64, f64),
+    Flag(bool),
+    Texts(Vec<Entry>),
+    Table(CheckedTable),
+    Tables(Vec<CheckedTable>),
+}
+
+/// A checked value and where it stands.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) span: Range<usize>,
+    pub(crate) value: Checked,
+}
+
+/// A table whose known and sound keys have been checked; unsound ones are missing here
+/// and present in the diagnostics.
+#[derive(Clone, Debug)]
+pub(crate) struct CheckedTable {
+    pub(crate) span: Range<usize>,
+    entries: Vec<(&'static str, Entry)>,
+    /// Keys that were present but unsound, so that "missing" is not said of them.
+    unsound: Vec<&'static str>,
+}
+
+impl CheckedTable {
+    pub(crate) fn entry(&self, key: &str) -> Option<&Entry> {
+        self.entries.iter().find(|(name, _)| *name == key).map(|(_, entry)| entry)
+    }
+
+    /// Where `key` stands, or the table itself where it does not.
+    pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
+        self.entry(key).map_or_else(|| self.span.clone(), |entry| entry.span.clone())
+    }
+
+    /// Whether the key was written, soundly or not.
+    pub(crate) fn mentions(&self, key: &str) -> bool {
+        self.entry(key).is_some() || self.unsound.contains(&key)
+    }
+
+    pub(crate) fn text(&self, key: &str) -> Option<&str> {
+        match &self.entry(key)?.value {
+            Checked::Text(text) => Some(text),
+            Checked::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn number(&self, key: &str) -> Option<f64> {
+        match self.entry(key)?.value {
+            Checked::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn number_or(&self, key: &str, default: f64) -> f64 {
+        self.number(key).unwrap_or(default)
+    }
+
+    pub(crate) fn word(&self, key: &str) -> Option<&'static str> {
+        match self.entry(key)?.value {
+            Checked::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn numbers(&self, key: &str) -> &[f64] {
+        match self.entry(key).map(|entry| &entry.value) {
+            Some(Checked::Numbers(values)) => values,
+            _ => &[],
+        }
+    }
+
+    pub(crate) fn range(&self, key: &str) -> Option<(f64, f64)> {
+        match self.entry(key)?.value {
+            Checked::Range(from, to) => Some((from, to)),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn flag(&self, key: &str) -> bool {
+        matches!(self.entry(key).map(|entry| &entry.value), Some(Checked::Flag(true)))
+    }
+
+    pub(crate) fn texts(&self, key: &str) -> &[Entry] {
+        match self.entry(key).map(|entry| &entry.value) {
+            Some(Checked::Texts(texts)) => texts,
+            _ => &[],
+        }
+    }
+
+    pub(crate) fn table(&self, key: &str) -> Option<&Self> {
+        match &self.entry(key)?.value {
+            Checked::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn tables(&self, key: &str) -> &[Self] {
+        match self.entry(key).map(|entry| &entry.value) {
+            Some(Checked::Tables(tables)) => tables,
+            _ => &[],
+        }
+    }
+}
+
+/// Parses `text` and checks it after `spec`; syntax errors and all others go to `found`.
+pub(crate) fn read_document(
+    text: &str,
+    spec: &'static TableSpec,
+    found: &mut Diagnostics,
+) -> CheckedTable {
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        let span = error.span().unwrap_or(0..0);
+        found.push(
+            Diagnostic::error(span, error.message().trim().to_owned())
+                .hint("the file is TOML: key = value, texts in quotation marks"),
+        );
+    }
+    check_table(document.get_ref(), document.span(), spec, found)
+}
+
+/// Checks one table after its specification.
+fn check_table(
+    table: &DeTable<'_>,
+    span: Range<usize>,
+    spec: &'static TableSpec,
+    found: &mut Diagnostics,
+) -> CheckedTable {
+    let mut checked = CheckedTable { span, entries: Vec::new(), unsound: Vec::new() };
+    // The parser keeps keys in alphabetic order; a reader expects findings in file order.
+    let mut written: Vec<_> = table.iter().collect();
+    written.sort_by_key(|(key, _)| key.span().start);
+    for (key, value) in written {
+        let Some(key_spec) = spec.key(key.get_ref()) else {
+            found.push(unknown_key(key, spec));
+            continue;
+        };
+        match check_key(key_spec, key.span(), value, found) {
+            Some(value_checked) => {
+                let entry = Entry { span: value.span(), value: value_checked };
+                checked.entries.push((key_spec.name, entry));
+            }
+            None => checked.unsound.push(key_spec.name),
+        }
+    }
+    for key in spec.keys.iter().filter(|key| key.required && !checked.mentions(key.name)) {
+        found.push(missing_key(key, spec, &checked.span));
+    }
+    checked
+}
+
+fn unknown_key(key: &Spanned<toml::de::DeString<'_>>, spec: &TableSpec) -> Diagnostic {
+    let known = spec.keys.iter().map(|key| key.name);
+    let hint = did_you_mean(key.get_ref(), known.clone())
+        .unwrap_or_else(|| format!("known keys are {}", known.collect::<Vec<_>>().join(", ")));
+    let place = if spec.name.is_empty() { "the file" } else { spec.name };
+    Diagnostic::error(key.span(), format!("unknown key \"{}\" in {place}", key.get_ref()))
+        .hint(hint)
+}
+
+fn missing_key(key: &KeySpec, spec: &TableSpec, span: &Range<usize>) -> Diagnostic {
+    let message = if spec.name.is_empty() {
+        format!("the key \"{}\" is missing", key.name)
+    } else {
+        format!("this {} has no \"{}\"", spec.name, key.name)
+    };
+    Diagnostic::error(span.clone(), message).hint(format!("add {}", example_line(key)))
+}
+
+/// An example of the key as it would stand in a file.
+fn example_line(key: &KeySpec) -> String {
+    match key.value {
+        ValueSpec::Quantity(QuantityKind::Number, _) | ValueSpec::Count(..) => {
+            format!("{} = 1", key.name)
+        }
+        ValueSpec::Quantity(kind, _) | ValueSpec::QuantityOr(kind, ..) => {
+            format!("{} = \"... {}\"", key.name, kind.si_unit())
+        }
+        ValueSpec::Choice(words) => {
+            format!("{} = \"{}\"", key.name, words.first().copied().unwrap_or("..."))
+        }
+        ValueSpec::Tables(spec) => format!("a table [[{}]]", spec.name),
+        _ => format!("{} = \"...\"", key.name),
+    }
+}
+
+fn check_key(
+    key: &'static KeySpec,
+    key_span: Range<usize>,
+    value: &Spanned<DeValue<'_>>,
+    found: &mut Diagnostics,
+) -> Option<Checked> {
+    if let Some(why) = key.refused {
+        found.push(
+            Diagnostic::error(
+                key_span,
+                format!("\"{}\" is not available in this version", key.name),
+            )
+            .hint(why),
+        );
+        return None;
+    }
+    match key.value {
+        ValueSpec::Text => text(key, value, found).map(Checked::Text),
+        ValueSpec::Node { ground } => node(key, value, ground, found).map(Checked::Text),
+        ValueSpec::Quantity(kind, sign) => {
+            quantity(key.name, value, kind, sign, found).map(Checked::Number)
+        }
+        ValueSpec::QuantityOr(kind, sign, words) => {
+            let word = value.get_ref().as_str().and_then(|t| words.iter().find(|w| **w == t));
+            match word {
+                Some(word) => Some(Checked::Word(word)),
+                None => quantity(key.name, value, kind, sign, found).map(Checked::Number),
+            }
+        }
+        ValueSpec::Quantities(kind, sign) => {
+            let items = array(key, value, found)?;
+            let numbers: Vec<_> =
+                items.iter().map(|item| quantity(key.name, item, kind, sign, found)).collect();
+            numbers.into_iter().collect::<Option<_>>().map(Checked::Numbers)
+        }
+        ValueSpec::Range(kind) => range(key, value, kind, found),
+        ValueSpec::Count(least, most) => count(key, value, least, most, found),
+        ValueSpec::Flag => match value.get_ref() {
+            DeValue::Boolean(flag) => Some(Checked::Flag(*flag)),
+            _ => wrong_type(key.name, value, "true or false", found),
+        },
+        ValueSpec::Choice(words) => choice(key, value, words, found),
+        ValueSpec::Texts => {
+            let items = array(key, value, found)?;
+            let texts: Vec<_> = items
+                .iter()
+                .map(|item| {
+                    let value = Checked::Text(text(key, item, found)?);
+                    Some(Entry { span: item.span(), value })
+                })
+                .collect();
+            texts.into_iter().collect::<Option<_>>().map(Checked::Texts)
+        }
+        ValueSpec::Table(spec) => match value.get_ref() {
+            DeValue::Table(table) => {
+                Some(Checked::Table(check_table(table, value.span(), spec, found)))
+            }
+            _ => wrong_type(key.name, value, "a table { ... }", found),
+        },
+        ValueSpec::Tables(spec) => tables(key, value, spec, found),
+    }
+}
+
+fn wrong_type<T>(
+    key: &str,
+    value: &Spanned<DeValue<'_>>,
+    wanted: &str,
+    found: &mut Diagnostics,
+) -> Option<T> {
+    let actual = value.get_ref().type_str();
+    let message = format!("\"{key}\" must be {wanted}, not {} {actual}", article(actual));
+    found.push(Diagnostic::error(value.span(), message));
+    None
+}
+
+fn article(noun: &str) -> &'static str {
+    if noun.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" }
+}
+
+fn text(key: &KeySpec, value: &Spanned<DeValue<'_>>, found: &mut Diagnostics) -> Option<String> {
+    match value.get_ref() {
+        DeValue::String(text) => Some(text.clone().into_owned()),
+        _ => wrong_type(key.name, value, "a text", found),
+    }
+}
+
+fn node(
+    key: &KeySpec,
+    value: &Spanned<DeValue<'_>>,
+    ground: bool,
+    found: &mut Diagnostics,
+) -> Option<String> {
+    let name = text(key, value, found)?;
+    if name.trim().is_empty() {
+        found.push(Diagnostic::error(value.span(), format!("\"{}\" names no node", key.name)));
+        return None;
+    }
+    if name == crate::GROUND && !ground {
+        let message = format!("\"{}\" cannot be ground here", key.name);
+        found.push(
+            Diagnostic::error(value.span(), message)
+                .hint("only shafts connect to ground; a torque or gear there would do nothing"),
+        );
+        return None;
+    }
+    Some(name)
+}
+
+fn quantity(
+    key: &str,
+    value: &Spanned<DeValue<'_>>,
+    kind: QuantityKind,
+    sign: Sign,
+    found: &mut Diagnostics,
+) -> Option<f64> {
+    let si = match value.get_ref() {
+        DeValue::String(text) => match parse_quantity(text, kind) {
+            Ok(quantity) => quantity.si,
+            Err(error) => {
+                found.push(
+                    Diagnostic::error(value.span(), format!("{key}: {error}"))
+                        .maybe_hint(error.hint()),
+                );
+                return None;
+            }
+        },
+        DeValue::Float(number) => bare_number(number.as_str()).unwrap_or(f64::NAN),
+        DeValue::Integer(number) => whole_number(number).unwrap_or(f64::NAN),
+        _ => {
+            let wanted = format!("{} such as {}", kind.name(), sample(kind));
+            return wrong_type(key, value, &wanted, found);
+        }
+    };
+    check_sign(key, si, sign, value.span(), found)
+}
+
+/// A sample of how a quantity is written, for messages.
+fn sample(kind: QuantityKind) -> String {
+    match kind {
+        QuantityKind::Number => "5.71".to_owned(),
+        _ => format!("\"1 {}\"", kind.si_unit()),
+    }
+}
+
+/// The value of a TOML number in decimal form.
+fn bare_number(text: &str) -> Option<f64> {
+    text.replace('_', "").parse().ok()
+}
+
+/// The value of a TOML integer of any radix; `None` where it does not fit 64 bits.
+fn whole_number(number: &toml::de::DeInteger<'_>) -> Option<f64> {
+    if number.radix() == 10 {
+        return bare_number(number.as_str());
+    }
+    #[expect(clippy::cast_precision_loss, reason = "hexadecimal parameters are small")]
+    i64::from_str_radix(number.as_str(), number.radix()).ok().map(|value| value as f64)
+}
+
+fn check_sign(
+    key: &str,
+    value: f64,
+    sign: Sign,
+    span: Range<usize>,
+    found: &mut Diagnostics,
+) -> Option<f64> {
+    if !value.is_finite() {
+        found.push(
+            Diagnostic::error(span, format!("\"{key}\" must be a finite number"))
+                .hint("leave the key out where there is no limit"),
+        );
+        return None;
+    }
+    if sign.allows(value) {
+        return Some(value);
+    }
+    found.push(Diagnostic::error(span, format!("\"{key}\" must {}", sign.rule())));
+    None
+}
+
+fn array<'v, 'd>(
+    key: &KeySpec,
+    value: &'v Spanned<DeValue<'d>>,
+    found: &mut Diagnostics,
+) -> Option<&'v [Spanned<DeValue<'d>>]> {
+    match value.get_ref() {
+        DeValue::Array(items) => Some(items),
+        _ => wrong_type(key.name, value, "a list [ ... ]", found),
+    }
+}
+
+fn range(
+    key: &KeySpec,
+    value: &Spanned<DeValue<'_>>,
+    kind: QuantityKind,
+    found: &mut Diagnostics,
+) -> Option<Checked> {
+    let text = text(key, value, found)?;
+    match parse_range(&text, kind) {
+        Ok((from, to)) => Some(Checked::Range(from, to)),
+        Err(error) => {
+            found.push(
+                Diagnostic::error(value.span(), format!("{}: {error}", key.name))
+                    .maybe_hint(error.hint()),
+            );
+            None
+        }
+    }
+}
+
+fn count(
+    key: &KeySpec,
+    value: &Spanned<DeValue<'_>>,
+    least: u32,
+    most: u32,
+    found: &mut Diagnostics,
+) -> Option<Checked> {
+    let number = match value.get_ref() {
+        DeValue::Integer(number) => whole_number(number),
+        _ => None,
+    };
+    match number {
+        Some(number) if number >= f64::from(least) && number <= f64::from(most) => {
+            Some(Checked::Number(number))
+        }
+        _ => wrong_type(key.name, value, &format!("a whole number from {least} to {most}"), found),
+    }
+}
+
+fn choice(
+    key: &KeySpec,
+    value: &Spanned<DeValue<'_>>,
+    words: &'static [&'static str],
+    found: &mut Diagnostics,
+) -> Option<Checked> {
+    let text = text(key, value, found)?;
+    if let Some(word) = words.iter().find(|word| **word == text) {
+        return Some(Checked::Word(word));
+    }
+    let hint = did_you_mean(&text, words.iter().copied())
+        .unwrap_or_else(|| format!("choose from {}", words.join(", ")));
+    found
+        .push(Diagnostic::error(value.span(), format!("\"{text}\" is no {}", key.name)).hint(hint));
+    None
+}
+
+fn tables(
+    key: &KeySpec,
+    value: &Spanned<DeValue<'_>>,
+    spec: &'static TableSpec,
+    found: &mut Diagnostics,
+) -> Option<Checked> {
+    let hint = format!("write [[{}]] with double brackets for each one", key.name);
+    let DeValue::Array(items) = value.get_ref() else {
+        let message = format!("\"{}\" must be a list of tables", key.name);
+        found.push(Diagnostic::error(value.span(), message).hint(hint));
+        return None;
+    };
+    let mut checked = Vec::new();
+    for item in items.iter() {
+        match item.get_ref() {
+            DeValue::Table(table) => {
+                checked.push(check_table(table, item.span(), spec, found));
+            }
+            _ => {
+                let message = format!("\"{}\" must be a list of tables", key.name);
+                found.push(Diagnostic::error(item.span(), message).hint(hint.clone()));
+            }
+        }
+    }
+    Some(Checked::Tables(checked))
+}

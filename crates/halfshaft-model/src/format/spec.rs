@@ -1,0 +1,100 @@
+//! The file format as data: which tables there are, which keys they take, what they mean.
+//!
+//! One list serves four ends, so that they cannot disagree: reading with all errors at
+//! once, parameter addresses, the JSON schema for editors, and the reference page.
+
+use crate::units::{QuantityKind, Sign};
+
+/// What a key holds.
+#[derive(Clone, Copy, Debug)]
+pub enum ValueSpec {
+    /// Free text.
+    Text,
+    /// The name of a node; `ground` where the flag is set.
+    Node {
+        /// Whether the fixed node may stand here.
+        ground: bool,
+    },
+    /// A number with a unit; a bare number is in SI.
+    Quantity(QuantityKind, Sign),
+    /// A number with a unit, or one of some words.
+    QuantityOr(QuantityKind, Sign, &'static [&'static str]),
+    /// A list of numbers with units.
+    Quantities(QuantityKind, Sign),
+    /// A range `A..B` of a quantity, as text.
+    Range(QuantityKind),
+    /// A whole number from the first to the second, both included.
+    Count(u32, u32),
+    /// Yes or no.
+    Flag,
+    /// One of some words.
+    Choice(&'static [&'static str]),
+    /// A list of texts.
+    Texts,
+    /// A table inside this one.
+    Table(&'static TableSpec),
+    /// A list of tables.
+    Tables(&'static TableSpec),
+}
+
+/// One key of a table.
+#[derive(Clone, Copy, Debug)]
+pub struct KeySpec {
+    /// The key as written.
+    pub name: &'static str,
+    /// What it holds.
+    pub value: ValueSpec,
+    /// Whether the table is wrong without it.
+    pub required: bool,
+    /// Meaning, with formula and default; one sentence or two.
+    pub doc: &'static str,
+    /// Why this version refuses the key although the format has it, if it does.
+    pub refused: Option<&'static str>,
+}
+
+impl KeySpec {
+    /// An optional key.
+    pub const fn new(name: &'static str, value: ValueSpec, doc: &'static str) -> Self {
+        Self { name, value, required: false, doc, refused: None }
+    }
+
+    /// The same, required.
+    #[must_use]
+    pub const fn required(self) -> Self {
+        Self { required: true, ..self }
+    }
+
+    /// The same, known to the format but refused by this version for the reason given.
+    #[must_use]
+    pub const fn refused(self, why: &'static str) -> Self {
+        Self { refused: Some(why), ..self }
+    }
+
+    /// The kind of quantity, where the key holds one.
+    pub fn quantity(&self) -> Option<(QuantityKind, Sign)> {
+        match self.value {
+            ValueSpec::Quantity(kind, sign) | ValueSpec::QuantityOr(kind, sign, _) => {
+                Some((kind, sign))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// One table of the file.
+#[derive(Clone, Copy, Debug)]
+pub struct TableSpec {
+    /// Name as written between brackets.
+    pub name: &'static str,
+    /// What the table describes.
+    pub doc: &'static str,
+    /// Its keys in the order of the reference page.
+    pub keys: &'static [KeySpec],
+}
+
+impl TableSpec {
+    /// The key of that name.
+    pub fn key(&self, name: &str) -> Option<&'static KeySpec> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+}

@@ -1,0 +1,202 @@
+//! Parameter addresses: `<element name>.<key>` for every numeric key of a line.
+//!
+//! `half-shaft.cubic`, `engine torque.amplitude`, `engine torque.pulse.peak`,
+//! `engine torque.harmonics.1.amplitude` (the first entry of `harmonics`). Element names may
+//! contain dots; the longest name that fits is meant.
+
+use crate::driveline::Driveline;
+use crate::elements::{GEAR, HARMONIC, INERTIA, MeanTorque, PULSE, SHAFT, TORQUE};
+use crate::format::{KeySpec, TableSpec};
+use crate::units::{QuantityKind, Sign};
+
+/// Which list of the line an element stands in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum List {
+    Inertia,
+    Gear,
+    Shaft,
+    Torque,
+}
+
+/// One numeric key of one element, found by its address.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Parameter {
+    /// The address as written.
+    pub address: String,
+    /// What the number means.
+    pub kind: QuantityKind,
+    /// Which signs it may have.
+    pub sign: Sign,
+    list: List,
+    index: usize,
+    key: String,
+}
+
+/// Why an address leads nowhere.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum AddressError {
+    /// There is no dot in it.
+    #[error("\"{address}\" is no parameter address")]
+    NoDot {
+        /// The address as written.
+        address: String,
+    },
+    /// No element has that name.
+    #[error("no element is named \"{name}\"")]
+    NoElement {
+        /// The name as written.
+        name: String,
+    },
+    /// The element has no such numeric key.
+    #[error("\"{element}\" has no number \"{key}\"")]
+    NoKey {
+        /// Name of the element.
+        element: String,
+        /// The key as written.
+        key: String,
+        /// The numeric keys that it has.
+        known: Vec<&'static str>,
+    },
+}
+
+/// Finds the parameter at `address`.
+///
+/// A key that the file leaves at its default has its address too.
+///
+/// # Errors
+/// [`AddressError`] where there is no such element or numeric key.
+pub fn resolve(line: &Driveline, address: &str) -> Result<Parameter, AddressError> {
+    let address = address.trim();
+    let mut owner: Option<(List, usize, &str)> = None;
+    for (list, index, name) in elements(line) {
+        let fits = address.strip_prefix(name).is_some_and(|rest| rest.starts_with('.'));
+        if fits && owner.is_none_or(|(.., longest)| name.len() > longest.len()) {
+            owner = Some((list, index, name));
+        }
+    }
+    let Some((list, index, name)) = owner else {
+        let (name, _) = address
+            .split_once('.')
+            .ok_or_else(|| AddressError::NoDot { address: address.to_owned() })?;
+        return Err(AddressError::NoElement { name: name.to_owned() });
+    };
+    let key = &address[name.len() + 1..];
+    let spec = key_spec(line, list, index, key);
+    let Some((kind, sign)) = spec.and_then(KeySpec::quantity) else {
+        let known = numeric_keys(table_of(list));
+        let element = name.to_owned();
+        return Err(AddressError::NoKey { element, key: key.to_owned(), known });
+    };
+    Ok(Parameter { address: address.to_owned(), kind, sign, list, index, key: key.to_owned() })
+}
+
+fn elements(line: &Driveline) -> impl Iterator<Item = (List, usize, &str)> {
+    fn named<'l, T>(
+        list: List,
+        items: &'l [T],
+        name: impl Fn(&'l T) -> &'l str + 'l,
+    ) -> impl Iterator<Item = (List, usize, &'l str)> {
+        items.iter().enumerate().map(move |(index, item)| (list, index, name(item)))
+    }
+    named(List::Inertia, &line.inertias, |e| &e.name)
+        .chain(named(List::Gear, &line.gears, |e| &e.name))
+        .chain(named(List::Shaft, &line.shafts, |e| &e.name))
+        .chain(named(List::Torque, &line.torques, |e| &e.name))
+}
+
+fn table_of(list: List) -> &'static TableSpec {
+    match list {
+        List::Inertia => &INERTIA,
+        List::Gear => &GEAR,
+        List::Shaft => &SHAFT,
+        List::Torque => &TORQUE,
+    }
+}
+
+/// The specification of a possibly nested key, where the element has the nested table.
+fn key_spec(line: &Driveline, list: List, index: usize, key: &str) -> Option<&'static KeySpec> {
+    let spec = if list == List::Torque {
+        let torque = line.torques.get(index)?;
+        if let Some(key) = key.strip_prefix("pulse.") {
+            torque.pulse.as_ref()?;
+            PULSE.key(key)
+        } else if let Some(rest) = key.strip_prefix("harmonics.") {
+            let (number, key) = rest.split_once('.')?;
+            let number: usize = number.parse().ok().filter(|number| *number > 0)?;
+            torque.harmonics.get(number)?;
+            HARMONIC.key(key)
+        } else {
+            TORQUE.key(key)
+        }
+    } else {
+        table_of(list).key(key)
+    };
+    spec.filter(|spec| spec.refused.is_none())
+}
+
+/// The numeric keys of an element table that this version offers.
+fn numeric_keys(table: &'static TableSpec) -> Vec<&'static str> {
+    let offered = table.keys.iter().filter(|key| key.refused.is_none());
+    offered.filter(|key| key.quantity().is_some()).map(|key| key.name).collect()
+}
+
+impl Parameter {
+    /// The parameter's value in `line`, in SI; `None` for a balancing mean torque.
+    pub fn value(&self, line: &Driveline) -> Option<f64> {
+        if self.takes_balance() {
+            return match line.torques.get(self.index)?.mean {
+                MeanTorque::Value(value) => Some(value),
+                MeanTorque::Balance => None,
+            };
+        }
+        // Each element knows its keys in one place, which lends them mutably.
+        let (index, key) = (self.index, self.key.as_str());
+        match self.list {
+            List::Inertia => line.inertias.get(index)?.clone().parameter_mut(key).copied(),
+            List::Gear => line.gears.get(index)?.clone().parameter_mut(key).copied(),
+            List::Shaft => line.shafts.get(index)?.clone().parameter_mut(key).copied(),
+            List::Torque => line.torques.get(index)?.clone().parameter_mut(key).copied(),
+        }
+    }
+
+    /// Symbol of the SI unit of the value.
+    pub fn unit(&self) -> &'static str {
+        self.kind.si_unit()
+    }
+
+    /// Whether another value makes other gear ratios.
+    pub(crate) fn changes_gears(&self) -> bool {
+        self.list == List::Gear
+    }
+
+    /// Whether the word "balance" may stand here.
+    pub(crate) fn takes_balance(&self) -> bool {
+        self.list == List::Torque && self.key == "mean"
+    }
+
+    pub(crate) fn set_balance(&self, line: &mut Driveline) {
+        if let Some(torque) = line.torques.get_mut(self.index) {
+            torque.mean = MeanTorque::Balance;
+        }
+    }
+
+    /// Writes `value` (SI) into `line`; says whether there was a place for it.
+    pub(crate) fn set(&self, line: &mut Driveline, value: f64) -> bool {
+        match self.slot(line) {
+            Some(slot) => {
+                *slot = value;
+                true
+            }
+            None => false,
+        }
+    }
+
+    fn slot<'l>(&self, line: &'l mut Driveline) -> Option<&'l mut f64> {
+        match self.list {
+            List::Inertia => line.inertias.get_mut(self.index)?.parameter_mut(&self.key),
+            List::Gear => line.gears.get_mut(self.index)?.parameter_mut(&self.key),
+            List::Shaft => line.shafts.get_mut(self.index)?.parameter_mut(&self.key),
+            List::Torque => line.torques.get_mut(self.index)?.parameter_mut(&self.key),
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! The questions and their settings, in SI.
+
+use serde::Serialize;
+
+use super::channel::InitialValue;
+
+/// What is asked, in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verb {
+    /// Is the model sound? A summary of it.
+    Check,
+    /// All equilibria under the mean torques and the torque capacity.
+    Static,
+    /// Natural frequencies, damping and shapes about the equilibrium.
+    Modes,
+    /// A time history.
+    Simulate,
+    /// The response to a pulse or an initial twist.
+    Shock,
+    /// Periodic responses over excitation speed.
+    Resonance,
+    /// Fold curves in a plane of excitation speed and one parameter.
+    Folds,
+}
+
+impl Verb {
+    /// All verbs with their names.
+    pub const ALL: [(&'static str, Self); 7] = [
+        ("check", Self::Check),
+        ("static", Self::Static),
+        ("modes", Self::Modes),
+        ("simulate", Self::Simulate),
+        ("shock", Self::Shock),
+        ("resonance", Self::Resonance),
+        ("folds", Self::Folds),
+    ];
+
+    /// Name of the verb.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, verb)| *verb == self).map_or("", |(name, _)| name)
+    }
+}
+
+/// A question with all its settings.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Question {
+    /// See [`Verb::Check`].
+    Check,
+    /// See [`Verb::Static`].
+    Static,
+    /// See [`Verb::Modes`].
+    Modes(ModesQuestion),
+    /// See [`Verb::Simulate`].
+    Simulate(SimulateQuestion),
+    /// See [`Verb::Shock`].
+    Shock(ShockQuestion),
+    /// See [`Verb::Resonance`].
+    Resonance(ResonanceQuestion),
+    /// See [`Verb::Folds`].
+    Folds(FoldsQuestion),
+}
+
+/// Settings of `modes`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ModesQuestion {
+    /// Which equilibrium, counted from 1 as `static` lists them; `None` for the stable one
+    /// nearest to zero twist.
+    pub equilibrium: Option<usize>,
+}
+
+/// State before the disturbance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Start {
+    /// Everything at zero: the torques of the model act from then on.
+    #[default]
+    Rest,
+    /// The stable equilibrium under the mean torques.
+    Equilibrium,
+}
+
+/// Settings of `simulate`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SimulateQuestion {
+    /// End of the time history, s.
+    pub duration: f64,
+    /// What the initial values are set upon.
+    pub start: Start,
+    /// Values that differ from `start` at time 0.
+    pub initial: Vec<InitialValue>,
+    /// Excitation speed Ω, rad/s; without it torques of an order are silent.
+    pub frequency: Option<f64>,
+    /// Output step, s; `None` for a two-thousandth of what is recorded.
+    pub step: Option<f64>,
+    /// Relative tolerance of the integration.
+    pub tolerance: f64,
+    /// Times of which the history is kept and measured, s; `None` for all.
+    pub record: Option<(f64, f64)>,
+}
+
+impl Default for SimulateQuestion {
+    fn default() -> Self {
+        Self {
+            duration: 5.0,
+            start: Start::Rest,
+            initial: Vec::new(),
+            frequency: None,
+            step: None,
+            tolerance: 1e-10,
+            record: None,
+        }
+    }
+}
+
+/// Which equations answer a shock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ShockMethod {
+    /// The whole line.
+    #[default]
+    Full,
+    /// The load on its shaft with the drive end held.
+    Clamped,
+    /// Equation (14) of the manuscript as printed, with doubled coefficients.
+    Published,
+    /// Closed form by multiple scales.
+    MultipleScales,
+}
+
+/// Which single equation a closed form solves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ShockEquation {
+    /// Equation (14) of the manuscript as printed.
+    #[default]
+    Published,
+    /// The load with the drive end held.
+    Clamped,
+    /// The relative twist of the free two-mass line.
+    Twist,
+}
+
+/// Settings of `shock`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ShockQuestion {
+    /// Which equations.
+    pub method: ShockMethod,
+    /// Order of the multiple scales, 1 or 2.
+    pub order: u8,
+    /// Which equation multiple scales solve.
+    pub equation: ShockEquation,
+    /// Disturbed initial values; without any the pulses of the model disturb.
+    pub initial: Vec<InitialValue>,
+    /// End of the time history, s.
+    pub duration: f64,
+    /// Output step, s; `None` for a two-thousandth of the duration.
+    pub step: Option<f64>,
+    /// Relative tolerance of the integration.
+    pub tolerance: f64,
+    /// Whether to answer by all methods side by side.
+    pub compare: bool,
+}
+
+impl Default for ShockQuestion {
+    fn default() -> Self {
+        Self {
+            method: ShockMethod::Full,
+            order: 2,
+            equation: ShockEquation::Published,
+            initial: Vec::new(),
+            duration: 5.0,
+            step: None,
+            tolerance: 1e-10,
+            compare: false,
+        }
+    }
+}
+
+/// How periodic responses are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ResonanceMethod {
+    /// Closed form: averaging of one mode.
+    #[default]
+    Averaged,
+}
+
+/// Settings of `resonance`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ResonanceQuestion {
+    /// Range of the excitation speed Ω, rad/s; `None` for one about the resonance.
+    pub frequency: Option<(f64, f64)>,
+    /// How.
+    pub method: ResonanceMethod,
+    /// Which elastic mode, from 1.
+    pub mode: usize,
+    /// Which order excites; `None` for every order that meets the mode in the range.
+    pub order: Option<f64>,
+    /// At how many frequencies all responses are listed.
+    pub points: usize,
+    /// Whether to integrate the full equations at chosen points.
+    pub verify: bool,
+}
+
+impl Default for ResonanceQuestion {
+    fn default() -> Self {
+        Self {
+            frequency: None,
+            method: ResonanceMethod::Averaged,
+            mode: 1,
+            order: None,
+            points: 1000,
+            verify: false,
+        }
+    }
+}
+
+/// A parameter and the range that it runs through, in SI.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParameterRange {
+    /// Address of a number of the line, or of a coefficient of the mode: `mode.alpha`,
+    /// `mode.beta`, `mode.f`, `mode.omega_1`.
+    pub address: String,
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+}
+
+/// Settings of `folds`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FoldsQuestion {
+    /// Range of the excitation speed Ω, rad/s; `None` for all.
+    pub frequency: Option<(f64, f64)>,
+    /// The other axis of the plane.
+    pub parameter: ParameterRange,
+    /// How.
+    pub method: ResonanceMethod,
+    /// Which elastic mode, from 1.
+    pub mode: usize,
+    /// Which order excites; `None` for the strongest.
+    pub order: Option<f64>,
+    /// About how many points describe a curve.
+    pub points: usize,
+}

@@ -1,0 +1,15 @@
+//! Questions as data: what can be asked of a line, whoever asks.
+//!
+//! The command line, study files and other faces fill in [`QuestionText`]; [`read`] turns it
+//! into a [`Question`] in SI or into every mistake at once. The analyses take it from there.
+
+mod channel;
+mod kinds;
+mod text;
+
+pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
+pub use kinds::{
+    FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod, ResonanceQuestion,
+    ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Start, Verb,
+};
+pub use text::{OptionError, QuestionText, read};

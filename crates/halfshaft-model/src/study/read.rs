@@ -1,0 +1,312 @@
+//! From the text of a study to its questions, all errors at once.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::keys::STUDY;
+use super::{Comparison, CurveStyle, Pick, Printed, Study, StudyFigure, StudyQuestion};
+use crate::diagnostic::{Diagnostic, Diagnostics, Source, did_you_mean};
+use crate::driveline::Driveline;
+use crate::embedded;
+use crate::format::{
+    Checked, CheckedTable, FileError, SetFlag, read_document, read_file, read_model,
+};
+use crate::question::{self, OptionError, QuestionText, Verb};
+
+/// Why a study cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The study itself cannot be read as text.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Mistakes in the study or in a model that it names.
+    #[error("the study has mistakes")]
+    Diagnostics(Diagnostics),
+}
+
+/// Reads a study and every model that it names.
+///
+/// # Errors
+/// [`StudyError`] with all mistakes at once.
+pub fn read_study(path: &Path) -> Result<Study, StudyError> {
+    let source = read_file(path)?;
+    let mut found = Diagnostics::about(source);
+    let text = found.sources[0].text.clone();
+    let document = read_document(&text, &STUDY, &mut found);
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    let mut reader = Reader { folder, document: &document, found, models: HashMap::new() };
+    let study = reader.study();
+    if reader.found.has_errors() {
+        return Err(StudyError::Diagnostics(reader.found));
+    }
+    Ok(study)
+}
+
+struct Reader<'d> {
+    folder: PathBuf,
+    document: &'d CheckedTable,
+    found: Diagnostics,
+    /// Texts of the models by name, so that each file is opened once.
+    models: HashMap<String, Option<Source>>,
+}
+
+impl Reader<'_> {
+    fn study(&mut self) -> Study {
+        let document = self.document;
+        let mut study = Study {
+            name: document.text("name").unwrap_or_default().to_owned(),
+            description: document.text("description").unwrap_or_default().to_owned(),
+            questions: Vec::new(),
+            figures: Vec::new(),
+        };
+        for table in document.tables("question") {
+            study.questions.extend(self.question(table, None));
+        }
+        for table in document.tables("figure") {
+            self.figure(table, &mut study);
+        }
+        if study.questions.is_empty() && !self.found.has_errors() {
+            self.found.push(
+                Diagnostic::error(document.span.clone(), "the study asks nothing")
+                    .hint("add a [[question]] with name and ask, or a [[figure]]"),
+            );
+        }
+        study
+    }
+
+    fn figure(&mut self, table: &CheckedTable, study: &mut Study) {
+        let name = table.text("name").unwrap_or_default().to_owned();
+        let allowed = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+        if !name.chars().all(allowed) || name.starts_with('.') {
+            self.found.push(
+                Diagnostic::error(table.span_of("name"), "the figure's name is a file name")
+                    .hint("use letters, digits, - and _"),
+            );
+        }
+        if study.figures.iter().any(|other| other.name == name) {
+            let message = format!("two figures are named \"{name}\"");
+            self.found.push(Diagnostic::error(table.span_of("name"), message));
+        }
+        let index = study.figures.len();
+        let first = study.questions.len();
+        for question in table.tables("question") {
+            study.questions.extend(self.question(question, Some(index)));
+        }
+        self.check_unique(table, &study.questions[first..]);
+        let comparisons = table
+            .tables("compare")
+            .iter()
+            .filter_map(|compare| self.comparison(compare, index, first, &study.questions))
+            .collect();
+        study.figures.push(StudyFigure {
+            name,
+            title: table.text("title").unwrap_or_default().to_owned(),
+            caption: table.text("caption").unwrap_or_default().to_owned(),
+            x: table.text("x").unwrap_or_default().to_owned(),
+            y: table.text("y").unwrap_or_default().to_owned(),
+            x_range: table.range("x_range"),
+            y_range: table.range("y_range"),
+            comparisons,
+        });
+    }
+
+    fn check_unique(&mut self, table: &CheckedTable, questions: &[StudyQuestion]) {
+        for (index, question) in questions.iter().enumerate() {
+            if questions[..index].iter().any(|other| other.name == question.name) {
+                let message = format!("two questions are named \"{}\"", question.name);
+                self.found.push(Diagnostic::error(table.span_of("question"), message));
+            }
+        }
+    }
+
+    fn question(&mut self, table: &CheckedTable, figure: Option<usize>) -> Option<StudyQuestion> {
+        let ask = table.word("ask")?;
+        let (_, verb) = Verb::ALL.into_iter().find(|(name, _)| *name == ask)?;
+        let line = self.line(table)?;
+        let text = question_text(table);
+        match question::read(verb, &text, &line) {
+            Ok(question) => Some(StudyQuestion {
+                name: table.text("name")?.to_owned(),
+                figure,
+                verb,
+                question,
+                line,
+                style: match table.word("style") {
+                    Some("second") => CurveStyle::Second,
+                    Some("hidden") => CurveStyle::Hidden,
+                    _ => CurveStyle::Line,
+                },
+            }),
+            Err(errors) => {
+                for error in errors {
+                    self.found.push(option_diagnostic(&error, table));
+                }
+                None
+            }
+        }
+    }
+
+    /// The line that a question is about, with its settings.
+    fn line(&mut self, table: &CheckedTable) -> Option<Driveline> {
+        let document = self.document;
+        let (owner, name) = match table.text("model") {
+            Some(name) => (table, Some(name)),
+            None => (document, document.text("model")),
+        };
+        let source = self.model_source(name, owner)?;
+        let settings: Vec<SetFlag> = texts(table, "set").into_iter().map(SetFlag).collect();
+        match read_model(source, &settings) {
+            Ok((line, _)) => Some(line),
+            Err(errors) => {
+                self.adopt(errors);
+                None
+            }
+        }
+    }
+
+    fn model_source(&mut self, name: Option<&str>, owner: &CheckedTable) -> Option<Source> {
+        let Some(name) = name else { return Some(embedded::example()) };
+        if let Some(known) = self.models.get(name) {
+            return known.clone();
+        }
+        let source = match read_file(&self.folder.join(name)) {
+            Ok(source) => Some(source),
+            Err(error) => {
+                self.found.push(Diagnostic::error(owner.span_of("model"), error.to_string()));
+                None
+            }
+        };
+        self.models.insert(name.to_owned(), source.clone());
+        source
+    }
+
+    /// Takes over the findings of a model, whose sources follow ours.
+    fn adopt(&mut self, other: Diagnostics) {
+        let offset = self.found.sources.len();
+        self.found.sources.extend(other.sources);
+        for mut item in other.items {
+            item.source += offset;
+            if !self.found.items.contains(&item) {
+                self.found.items.push(item);
+            }
+        }
+    }
+
+    fn comparison(
+        &mut self,
+        table: &CheckedTable,
+        figure: usize,
+        first: usize,
+        questions: &[StudyQuestion],
+    ) -> Option<Comparison> {
+        let pick = if let Some(pointer) = table.text("ranking") {
+            Pick::Ranking { figure, pointer: pointer.to_owned() }
+        } else {
+            let question = self.asked(table, first, questions)?;
+            pick(table, question).or_else(|| {
+                self.found.push(
+                    Diagnostic::error(table.span.clone(), "this comparison picks no value")
+                        .hint("add pointer, at, special or ranking"),
+                );
+                None
+            })?
+        };
+        let printed = match (table.number("printed"), table.texts("printed_order")) {
+            (Some(number), _) => Printed::Number(number),
+            (None, []) => Printed::Text(table.text("printed_text").unwrap_or("").to_owned()),
+            (None, _) => Printed::Order(texts(table, "printed_order")),
+        };
+        Some(Comparison {
+            what: table.text("what")?.to_owned(),
+            pick,
+            printed,
+            remark: table.text("remark").unwrap_or_default().to_owned(),
+        })
+    }
+
+    /// Index of the question that `of` names, or of the only one.
+    fn asked(
+        &mut self,
+        table: &CheckedTable,
+        first: usize,
+        questions: &[StudyQuestion],
+    ) -> Option<usize> {
+        let own = questions.get(first..).unwrap_or_default();
+        let Some(name) = table.text("of") else {
+            if own.len() == 1 {
+                return Some(first);
+            }
+            self.found.push(
+                Diagnostic::error(table.span.clone(), "of which question?")
+                    .hint("add of = \"name of the question\""),
+            );
+            return None;
+        };
+        if let Some(index) = own.iter().position(|question| question.name == name) {
+            return Some(first + index);
+        }
+        // A question that failed has been reported where it stands.
+        if !self.found.has_errors() {
+            let hint = did_you_mean(name, own.iter().map(|question| question.name.as_str()));
+            let message = format!("no question of this figure is named \"{name}\"");
+            self.found.push(Diagnostic::error(table.span_of("of"), message).maybe_hint(hint));
+        }
+        None
+    }
+}
+
+fn pick(table: &CheckedTable, question: usize) -> Option<Pick> {
+    if let Some(pointer) = table.text("pointer") {
+        return Some(Pick::Pointer { question, pointer: pointer.to_owned() });
+    }
+    if let Some(at) = table.table("at") {
+        let column = at.text("column")?.to_owned();
+        return Some(Pick::At { question, column, x: at.number("x")? });
+    }
+    let special = table.table("special")?;
+    let kind = special.text("kind")?.to_owned();
+    let Some(column) = special.text("column") else {
+        return Some(Pick::Count { question, kind });
+    };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 1000")]
+    let number = special.number_or("number", 1.0) as usize;
+    Some(Pick::Special { question, kind, number, column: column.to_owned() })
+}
+
+fn texts(table: &CheckedTable, key: &str) -> Vec<String> {
+    let entries = table.texts(key).iter();
+    entries
+        .filter_map(|entry| match &entry.value {
+            Checked::Text(text) => Some(text.clone()),
+            _ => None,
+        })
+        .collect()
+}
+
+fn question_text(table: &CheckedTable) -> QuestionText {
+    let option = |key: &str| table.text(key).map(str::to_owned);
+    QuestionText {
+        duration: option("duration"),
+        initial: texts(table, "initial"),
+        start: option("start"),
+        frequency: option("frequency"),
+        step: option("step"),
+        tolerance: option("tolerance"),
+        record: option("record"),
+        method: option("method"),
+        order: option("order"),
+        equation: option("equation"),
+        compare: table.flag("compare"),
+        mode: option("mode"),
+        points: option("points"),
+        verify: table.flag("verify"),
+        parameter: option("parameter"),
+        equilibrium: option("equilibrium"),
+    }
+}
+
+fn option_diagnostic(error: &OptionError, table: &CheckedTable) -> Diagnostic {
+    let hint = Some(error.hint.clone()).filter(|hint| !hint.is_empty());
+    let message = format!("{}: {}", error.option, error.message);
+    Diagnostic::error(table.span_of(error.option), message).maybe_hint(hint)
+}

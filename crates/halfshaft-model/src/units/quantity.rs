@@ -1,0 +1,197 @@
+//! From the text of one quantity to its SI value.
+
+use super::dimension::Dimension;
+use super::expression::{self, UnitError};
+use super::kind::QuantityKind;
+use super::number;
+
+/// A value read from text, in the SI unit of its kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// The value in SI units.
+    pub si: f64,
+    /// Whether a unit was written (a text without one is only accepted for pure numbers).
+    pub has_unit: bool,
+}
+
+/// Why a text is not the quantity that was asked for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum QuantityError {
+    /// The text does not begin with a number.
+    #[error("\"{text}\" does not begin with a number")]
+    NoNumber {
+        /// The text as written.
+        text: String,
+    },
+    /// The number is infinite or not a number.
+    #[error("\"{text}\" is not a finite number")]
+    NotFinite {
+        /// The text as written.
+        text: String,
+    },
+    /// A text without a unit where the unit is not certain.
+    #[error("the unit is missing: \"{text}\" could be {}", .kind.examples().join(" or "))]
+    NoUnit {
+        /// The text as written.
+        text: String,
+        /// What was asked for.
+        kind: QuantityKind,
+    },
+    /// The unit cannot be read.
+    #[error(transparent)]
+    Unit(UnitError),
+    /// The unit is of another dimension.
+    #[error("\"{unit}\" is {actual}, but this must be {}", .kind.name())]
+    WrongDimension {
+        /// The unit as written.
+        unit: String,
+        /// Its dimension.
+        actual: Dimension,
+        /// What was asked for.
+        kind: QuantityKind,
+    },
+}
+
+impl QuantityError {
+    /// What to write instead.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::NoNumber { text } if text.contains(',') => {
+                Some("decimals are written with a point: 0.5".to_owned())
+            }
+            Self::NoNumber { .. } => Some("write a number and a unit, e.g. \"5 N·m\"".to_owned()),
+            Self::NotFinite { .. } => Some("leave the key out where there is no limit".to_owned()),
+            Self::NoUnit { text, kind } => Some(format!(
+                "write \"{} {}\", or the bare number {0} for {1}",
+                text.trim(),
+                kind.si_unit()
+            )),
+            Self::Unit(UnitError::Unknown { nearest: Some(nearest), .. }) => {
+                Some(format!("did you mean \"{nearest}\"?"))
+            }
+            Self::Unit(_) => {
+                Some("units look like N·m/rad, kg·m², N·m·s/rad, rpm, deg, ms".to_owned())
+            }
+            Self::WrongDimension { actual, kind, .. } => Some(dimension_hint(*actual, *kind)),
+        }
+    }
+}
+
+fn dimension_hint(actual: Dimension, kind: QuantityKind) -> String {
+    let wanted = kind.dimension();
+    let suggestions = kind.examples().join(", ");
+    if kind == QuantityKind::Number {
+        return "leave the unit out".to_owned();
+    }
+    if actual.without_angle() == wanted.without_angle() && actual != wanted {
+        if wanted.angle < 0 && actual.angle == 0 {
+            return format!("per which angle? write {suggestions}");
+        }
+        return format!("the angle does not fit: write {suggestions}");
+    }
+    format!("write it in {suggestions}")
+}
+
+/// Reads `text` as a number with a unit of the given kind and converts it to SI.
+///
+/// A text without a unit is refused unless `kind` is a pure number: whoever writes
+/// quotation marks means a unit, and 6420 N·m/deg is not 6420 N·m/rad.
+///
+/// # Errors
+/// [`QuantityError`] says what is wrong and, by [`QuantityError::hint`], what to write.
+pub fn parse_quantity(text: &str, kind: QuantityKind) -> Result<Quantity, QuantityError> {
+    let owned = || text.to_owned();
+    let (value, unit) =
+        number::split(text).ok_or_else(|| QuantityError::NoNumber { text: owned() })?;
+    if !value.is_finite() {
+        return Err(QuantityError::NotFinite { text: owned() });
+    }
+    let unit = unit.trim();
+    if unit.starts_with(',') {
+        return Err(QuantityError::NoNumber { text: owned() });
+    }
+    if unit.is_empty() {
+        // Zero is zero in every unit; any other number without one could be per degree.
+        return if kind == QuantityKind::Number || value == 0.0 {
+            Ok(Quantity { si: value, has_unit: false })
+        } else {
+            Err(QuantityError::NoUnit { text: owned(), kind })
+        };
+    }
+    let readings = expression::read(unit).map_err(QuantityError::Unit)?;
+    let wanted = kind.dimension();
+    let fitting = readings.iter().find(|reading| reading.dimension == wanted);
+    let Some(reading) = fitting else {
+        let actual = readings.first().map_or(Dimension::NONE, |reading| reading.dimension);
+        return Err(QuantityError::WrongDimension { unit: unit.to_owned(), actual, kind });
+    };
+    let si = value * reading.factor;
+    if si.is_finite() {
+        Ok(Quantity { si, has_unit: true })
+    } else {
+        Err(QuantityError::NotFinite { text: owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn si(text: &str, kind: QuantityKind) -> f64 {
+        parse_quantity(text, kind).unwrap_or_else(|error| panic!("{text}: {error}")).si
+    }
+
+    // Source: unit definitions.
+    #[test]
+    fn quantities_are_converted_at_the_border() {
+        assert_eq!(si("6420 N·m/rad", QuantityKind::Stiffness(1)), 6420.0);
+        let per_degree = si("112 N·m/deg", QuantityKind::Stiffness(1));
+        assert!((per_degree - 112.0 * 180.0 / PI).abs() < 1e-12 * per_degree);
+        let cubic = si("-2 Nm/deg^3", QuantityKind::Stiffness(3));
+        assert!((cubic + 2.0 * (180.0 / PI).powi(3)).abs() < 1e-12 * cubic.abs());
+        assert_eq!(si("3.28 kg·cm²", QuantityKind::Inertia), 3.28e-4);
+        assert!((si("3000 rpm", QuantityKind::Speed) - 100.0 * PI).abs() < 1e-12);
+        assert!((si("4 Hz", QuantityKind::Speed) - 8.0 * PI).abs() < 1e-14);
+        assert_eq!(si("90 Nms/rad", QuantityKind::Damping), 90.0);
+        assert_eq!(si("20ms", QuantityKind::Time), 0.02);
+        assert_eq!(si("5.71", QuantityKind::Number), 5.71);
+        assert_eq!(si("2 %", QuantityKind::Number), 0.02);
+        assert_eq!(si("79.3 GPa", QuantityKind::Pressure), 79.3e9);
+    }
+
+    #[test]
+    fn wrong_dimensions_say_what_is_missing() {
+        let error = parse_quantity("6420 N·m", QuantityKind::Stiffness(1)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "\"N·m\" is a torque, but this must be a torsional stiffness"
+        );
+        assert_eq!(
+            error.hint().as_deref(),
+            Some("per which angle? write N·m/rad, N·m/deg, kN·m/rad")
+        );
+        let error = parse_quantity("25 1/s", QuantityKind::Speed).unwrap_err();
+        assert!(error.hint().is_some_and(|hint| hint.contains("angle")));
+    }
+
+    #[test]
+    fn a_text_without_unit_is_ambiguous() {
+        let error = parse_quantity("6420", QuantityKind::Stiffness(1)).unwrap_err();
+        assert!(matches!(error, QuantityError::NoUnit { .. }));
+        assert_eq!(
+            error.hint().as_deref(),
+            Some("write \"6420 N·m/rad\", or the bare number 6420 for N·m/rad")
+        );
+    }
+
+    #[test]
+    fn numbers_that_are_none_are_refused() {
+        for text in ["nan N·m", "inf N·m", "-inf N·m", "1e400 N·m", "1e308 kN·m"] {
+            let error = parse_quantity(text, QuantityKind::Torque).unwrap_err();
+            assert!(matches!(error, QuantityError::NotFinite { .. }), "{text}: {error}");
+        }
+        assert!(parse_quantity("0,5 N·m", QuantityKind::Torque).is_err());
+        assert!(parse_quantity("N·m", QuantityKind::Torque).is_err());
+    }
+}

@@ -1,0 +1,204 @@
+//! What is told of a line.
+
+use halfshaft_results::{CheckResult, CheckedShaft, CheckedTorque, ReducedInertia};
+
+use super::{Account, Grid, chain};
+use crate::words::{MISSING, counted, list, number, plain, quantity};
+
+/// The whole account.
+pub(crate) fn account(check: &CheckResult) -> Account {
+    let mut account = Account::default();
+    if !check.description.trim().is_empty() {
+        account.text([plain(&check.description)]);
+    }
+    account.text([format!("The model is sound: {}.", makeup(check))]);
+    account.lines(chain::lines(check));
+    account.figure("sketch");
+    account.text([nonlinearities(check)]);
+    account.append(elements(check));
+    account
+}
+
+/// The tables of the elements.
+pub(crate) fn elements(check: &CheckResult) -> Account {
+    let mut account = Account::default();
+    account.grid(shafts(check));
+    account.grid(torques(check));
+    account.grid(gears(check));
+    account.grid(inertias(check));
+    account
+}
+
+/// How many of what there is.
+pub(crate) fn makeup(check: &CheckResult) -> String {
+    let members = || check.reduced_inertias.iter().flat_map(|group| &group.members);
+    let bodies = members().filter(|member| member.inertia > 0.0).count();
+    let parts = [
+        counted(bodies, "inertia", "inertias"),
+        counted(check.shafts.len(), "shaft", "shafts"),
+        counted(check.gears.len(), "gear", "gears"),
+        counted(check.torques.len(), "torque", "torques"),
+    ];
+    let freedom = counted(check.degrees_of_freedom, "degree of freedom", "degrees of freedom");
+    let (kind, turning) = if check.grounded {
+        ("a line held at ground", "")
+    } else {
+        ("a free line", ", one of them the turning of the whole line")
+    };
+    format!("{kind} of {}; {freedom}{turning}", list(&parts))
+}
+
+/// Which laws are nonlinear and what that does; shafts of one kind together.
+pub(crate) fn nonlinearities(check: &CheckResult) -> String {
+    let mut kinds: Vec<(String, Vec<String>)> = Vec::new();
+    for shaft in check.shafts.iter().filter(|shaft| !shaft.nonlinear_terms.is_empty()) {
+        let terms = shaft.nonlinear_terms.iter().map(|term| {
+            format!("{} term, {}", plain(&term.key), plain(&term.effect).replace(':', ";"))
+        });
+        let kind = list(&terms.collect::<Vec<_>>());
+        match kinds.iter_mut().find(|(known, _)| *known == kind) {
+            Some((_, shafts)) => shafts.push(plain(&shaft.name)),
+            None => kinds.push((kind, vec![plain(&shaft.name)])),
+        }
+    }
+    if kinds.is_empty() {
+        return "All shafts are linear: nothing here can fold or jump.".to_owned();
+    }
+    let told: Vec<String> =
+        kinds.iter().map(|(kind, shafts)| format!("{} ({kind})", list(shafts))).collect();
+    format!("Nonlinear: {}.", told.join("; "))
+}
+
+/// Where each reduced inertia comes from.
+fn inertias(check: &CheckResult) -> Grid {
+    let groups = &check.reduced_inertias;
+    Grid::new("Inertias with the gears taken out")
+        .words("reduced to", groups.iter().map(|group| &group.reference))
+        .numbers("inertia", "kg·m²", 6, groups.iter().map(|group| Some(group.inertia)))
+        .words("comes from", groups.iter().map(sources))
+        .words("damping to ground", groups.iter().map(ground_damping))
+        .without_empty_columns()
+}
+
+fn sources(group: &ReducedInertia) -> String {
+    let bodies: Vec<String> = group
+        .members
+        .iter()
+        .filter(|member| member.inertia > 0.0)
+        .map(|member| {
+            let ratio = member.ratio.abs();
+            let factor =
+                if ratio == 1.0 { String::new() } else { format!(" × {}²", number(ratio, 5)) };
+            format!("{} {}{factor}", plain(&member.node), number(member.inertia, 6))
+        })
+        .collect();
+    bodies.join(" + ")
+}
+
+fn ground_damping(group: &ReducedInertia) -> String {
+    let damped: Vec<String> = group
+        .members
+        .iter()
+        .filter(|member| member.damping != 0.0)
+        .map(|member| {
+            format!("{} {}", plain(&member.node), quantity(member.damping, 5, "N·m·s/rad"))
+        })
+        .collect();
+    damped.join(", ")
+}
+
+fn gears(check: &CheckResult) -> Grid {
+    let gears = &check.gears;
+    let others = |ratios: &[f64]| {
+        let texts: Vec<String> = ratios.iter().map(|ratio| number(*ratio, 5)).collect();
+        texts.join(", ")
+    };
+    Grid::new("Gears")
+        .words("name", gears.iter().map(|gear| &gear.name))
+        .words("input", gears.iter().map(|gear| &gear.input))
+        .words("output", gears.iter().map(|gear| &gear.output))
+        .words("ratio (input over output speed)", gears.iter().map(|gear| number(gear.ratio, 5)))
+        .words("ratios offered", gears.iter().map(|gear| others(&gear.ratios)))
+        .without_empty_columns()
+}
+
+fn shafts(check: &CheckResult) -> Grid {
+    let shafts = &check.shafts;
+    Grid::new("Shafts")
+        .words("name", shafts.iter().map(|shaft| &shaft.name))
+        .words("from", shafts.iter().map(|shaft| &shaft.from))
+        .words("to", shafts.iter().map(|shaft| &shaft.to))
+        .numbers("stiffness", "N·m/rad", 6, shafts.iter().map(|shaft| Some(shaft.stiffness)))
+        .numbers("damping", "N·m·s/rad", 5, shafts.iter().map(|shaft| Some(shaft.damping)))
+        .words("nonlinear terms", shafts.iter().map(terms))
+        .without_empty_columns()
+}
+
+fn terms(shaft: &CheckedShaft) -> String {
+    let terms: Vec<String> = shaft
+        .nonlinear_terms
+        .iter()
+        .map(|term| {
+            format!("{} {}", plain(&term.key), quantity(term.coefficient, 6, &plain(&term.unit)))
+        })
+        .collect();
+    terms.join(", ")
+}
+
+fn torques(check: &CheckResult) -> Grid {
+    let torques = &check.torques;
+    let mean = |torque: &CheckedTorque| match torque.mean {
+        Some(mean) => quantity(mean, 6, "N·m"),
+        None => "balances the others".to_owned(),
+    };
+    Grid::new("Torques")
+        .words("name", torques.iter().map(|torque| &torque.name))
+        .words("on", torques.iter().map(|torque| &torque.on))
+        .words("mean", torques.iter().map(mean))
+        .words("oscillating part", torques.iter().map(oscillation))
+        .words(
+            "pulse",
+            torques.iter().map(|torque| {
+                torque.pulse.as_ref().map_or_else(|| MISSING.to_owned(), |p| minus(&plain(p)))
+            }),
+        )
+        .without_empty_columns()
+}
+
+/// "40 N·m at order 2", several of them in a list.
+pub(crate) fn oscillation(torque: &CheckedTorque) -> String {
+    let parts: Vec<String> = torque
+        .harmonics
+        .iter()
+        .map(|(order, amplitude, _)| {
+            format!("{} at order {}", quantity(*amplitude, 6, "N·m"), number(*order, 4))
+        })
+        .collect();
+    list(&parts)
+}
+
+/// A text with a true minus before its numbers.
+pub(crate) fn minus(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut characters = text.chars().peekable();
+    while let Some(c) = characters.next() {
+        let starts_number = characters.peek().is_some_and(char::is_ascii_digit);
+        let sign = c == '-' && starts_number && matches!(before, ' ' | '(' | '=');
+        out.push(if sign { '−' } else { c });
+        before = c;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::minus;
+
+    /// Oracle: by hand.
+    #[test]
+    fn only_signs_of_numbers_become_minus() {
+        assert_eq!(minus("half-sine of -12000 N·m (-3.5)"), "half-sine of −12000 N·m (−3.5)");
+        assert_eq!(minus("a-1 b - 2"), "a-1 b - 2");
+    }
+}

@@ -1,0 +1,150 @@
+//! What is told of fold curves.
+
+use halfshaft_results::{FoldsResult, SpecialKind, SpecialPoint};
+
+use super::{Account, Grid};
+use crate::words::{capital, column_label, list, number, plain, quantity, times};
+
+/// The whole account.
+pub(crate) fn account(result: &FoldsResult) -> Account {
+    let mut account = plane(result, true);
+    if let Some(scaling) = &result.scaling {
+        account.text([format!("Scaling: {}.", super::resonance::statement(scaling))]);
+    }
+    account
+}
+
+/// The account of one plane among others; terms are explained where it is the first.
+pub(crate) fn plane(result: &FoldsResult, explain: bool) -> Account {
+    let mut account = Account::default();
+    account.text(thresholds(result));
+    if explain && !result.curves.is_empty() {
+        account.note(
+            "Between the two folds three responses exist, and a slow sweep jumps where it crosses \
+             the second of them. A cusp is where the folds meet and vanish: the threshold of the \
+             jump.",
+        );
+    }
+    account.figure(crate::figures::folds::id(result));
+    account.grid(cusps(result));
+    account
+}
+
+/// Name of the parameter in words.
+pub(crate) fn parameter(result: &FoldsResult) -> String {
+    column_label(&result.parameter)
+}
+
+/// The cusps, in the order of the answer.
+pub(crate) fn cusp_points(result: &FoldsResult) -> impl Iterator<Item = &SpecialPoint> {
+    result.special_points.iter().filter(|point| point.kind == SpecialKind::Cusp)
+}
+
+/// On which side of a cusp the folds lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// At larger values of the parameter.
+    Above,
+    /// At smaller values.
+    Below,
+}
+
+/// On which side of the cusp the nearest curve lies; `None` where no curve touches it.
+pub(crate) fn side(result: &FoldsResult, cusp: f64) -> Option<Side> {
+    let mut best: Option<(f64, f64)> = None;
+    for curve in &result.curves {
+        let values = curve.values(&result.parameter);
+        let (low, high) = bounds(values)?;
+        let middle = f64::midpoint(low, high);
+        let distance = (low - cusp).abs().min((high - cusp).abs());
+        if best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, middle));
+        }
+    }
+    best.map(|(_, middle)| if middle >= cusp { Side::Above } else { Side::Below })
+}
+
+fn bounds(values: &[f64]) -> Option<(f64, f64)> {
+    let finite = || values.iter().copied().filter(|value| value.is_finite());
+    let (low, high) = (finite().reduce(f64::min)?, finite().reduce(f64::max)?);
+    Some((low, high))
+}
+
+/// Where folds begin, against the model's own value.
+pub(crate) fn thresholds(result: &FoldsResult) -> Vec<String> {
+    let name = parameter(result);
+    let unit = plain(&result.parameter_unit);
+    let own =
+        result.parameter_value.map(|value| format!("the model has {}", quantity(value, 5, &unit)));
+    let mut sentences: Vec<String> = cusp_points(result)
+        .filter_map(|point| {
+            let value = point.value(&result.parameter)?;
+            let place = match side(result, value) {
+                Some(Side::Above) => "above",
+                Some(Side::Below) => "below",
+                None => "from",
+            };
+            let at = point.value("frequency").map_or_else(String::new, |frequency| {
+                let rpm = quantity(frequency * 30.0 / std::f64::consts::PI, 5, "rpm");
+                format!(" (cusp at {}, {rpm})", quantity(frequency, 5, "rad/s"))
+            });
+            Some(format!("folds appear {place} {}{at}", quantity(value, 7, &unit)))
+        })
+        .collect();
+    if sentences.is_empty() {
+        return vec![without_cusp(result, &name, own)];
+    }
+    let places = list(&std::mem::take(&mut sentences));
+    let tail = own.map_or_else(String::new, |own| format!("; {own}"));
+    let mut told = vec![format!("{}: {places}{tail}.", capital(&name))];
+    told.extend(distance(result));
+    told
+}
+
+fn without_cusp(result: &FoldsResult, name: &str, own: Option<String>) -> String {
+    let tail = own.map_or_else(String::new, |own| format!("; {own}"));
+    if result.curves.is_empty() {
+        format!("No response folds in the range of the {name}{tail}.")
+    } else {
+        format!("The response folds over the whole range of the {name}, without a cusp{tail}.")
+    }
+}
+
+/// How far the model's own value is from the nearest cusp.
+pub(crate) fn distance(result: &FoldsResult) -> Option<String> {
+    let own = result.parameter_value?;
+    let (nearest, _) = cusp_points(result)
+        .filter_map(|point| point.value(&result.parameter))
+        .filter(|cusp| cusp.signum() == own.signum())
+        .map(|cusp| (cusp, (cusp / own).ln().abs()))
+        .filter(|(_, distance)| distance.is_finite())
+        .min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let inside = match side(result, nearest)? {
+        Side::Above => own > nearest,
+        Side::Below => own < nearest,
+    };
+    let factor = (own / nearest).abs();
+    let ratio = if factor >= 1.0 {
+        format!("{} the threshold", times(factor))
+    } else {
+        format!("{} % of the threshold", number(100.0 * factor, 3))
+    };
+    Some(if inside {
+        format!("So the model lies in the jumping range, at {ratio}.")
+    } else {
+        format!("So the model does not jump; its value is {ratio}.")
+    })
+}
+
+fn cusps(result: &FoldsResult) -> Grid {
+    let points: Vec<&SpecialPoint> = cusp_points(result).collect();
+    let of = |name: &str| points.iter().map(|point| point.value(name)).collect::<Vec<_>>();
+    let to_rpm = |value: Option<f64>| value.map(|value| value * 30.0 / std::f64::consts::PI);
+    Grid::new("Cusps")
+        .numbers(&parameter(result), &result.parameter_unit, 7, of(&result.parameter))
+        .numbers("excitation speed", "rad/s", 7, of("frequency"))
+        .numbers("excitation speed", "rpm", 6, of("frequency").into_iter().map(to_rpm))
+        .numbers("detuning σ", "rad/s", 6, of("sigma"))
+        .numbers("amplitude ρ", "rad", 6, of("rho"))
+        .without_empty_columns()
+}

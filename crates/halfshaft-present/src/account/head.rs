@@ -1,0 +1,88 @@
+//! What stands above and below every account.
+
+use halfshaft_results::{Answer, Header, Reason, Termination};
+
+use crate::words::plain;
+
+/// What an analysis is called, for headings.
+pub(crate) fn title(analysis: &str) -> String {
+    let words = match analysis {
+        "check" => "The line",
+        "static" => "Static wind-up and torque capacity",
+        "modes" => "Modes of vibration",
+        "simulate" => "Simulation",
+        "shock" => "Shock",
+        "resonance" => "Resonance",
+        "folds" => "Fold curves",
+        "run" => "Study",
+        "report" => "Report",
+        other => return plain(other),
+    };
+    words.to_owned()
+}
+
+/// Why an analysis ended before it had answered everything; `None` where it has.
+pub(crate) fn early_end(termination: &Termination) -> Option<String> {
+    let why = match termination.reason {
+        Reason::Completed => return None,
+        Reason::Cancelled => "it was stopped by the user",
+        Reason::StepLimit => "the integrator used up its steps",
+        Reason::StepTooSmall => "the steps of the integrator became too small to go on",
+        Reason::NonFinite => "a value left the numbers: the motion runs away",
+        Reason::NoEquilibrium => "there is no state of rest under the mean torques",
+    };
+    let detail = termination.detail.as_deref().map(plain).unwrap_or_default();
+    let more = if detail.is_empty() { String::new() } else { format!("; {detail}") };
+    Some(format!("this answer ends early: {why}{more}. What was reached is shown"))
+}
+
+/// The early ends of an answer and of the answers in it.
+pub(crate) fn early_ends(answer: &Answer) -> Vec<String> {
+    let own = answer.header();
+    let of = |header: &Header| {
+        let end = early_end(&header.termination)?;
+        let part = if header.analysis == own.analysis {
+            String::new()
+        } else {
+            format!("{}: ", plain(&header.analysis))
+        };
+        Some(format!("{part}{end}"))
+    };
+    super::headers(answer).into_iter().filter_map(of).collect()
+}
+
+/// Which program and which model made the answer.
+pub(crate) fn provenance(header: &Header) -> String {
+    let digest: String = plain(&header.model.digest).chars().take(12).collect();
+    let version = plain(&header.version);
+    format!("halfshaft {version}, model \"{}\" ({digest})", plain(&header.model.name))
+}
+
+/// The settings in the form "name = value", those that were given or have a value.
+pub(crate) fn settings(header: &Header) -> Vec<String> {
+    let Some(settings) = header.settings.as_object() else { return Vec::new() };
+    let shown = |(name, value): (&String, &serde_json::Value)| {
+        let value = match value {
+            serde_json::Value::Null => return None,
+            serde_json::Value::String(text) => text.clone(),
+            serde_json::Value::Array(list) if list.is_empty() => return None,
+            other => other.to_string(),
+        };
+        Some(format!("{} = {}", plain(&name.replace('_', " ")), plain(&value)))
+    };
+    settings.iter().filter_map(shown).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::early_end;
+    use halfshaft_results::{Reason, Termination};
+
+    /// Oracle: the contract: what was reached and why it ended.
+    #[test]
+    fn an_early_end_is_told_with_its_detail() {
+        assert_eq!(early_end(&Termination::completed()), None);
+        let told = early_end(&Termination::early(Reason::StepLimit, "at 1.2 s of 5 s"));
+        assert!(told.is_some_and(|text| text.contains("used up") && text.contains("at 1.2 s")));
+    }
+}

@@ -1,0 +1,61 @@
+//! What to ask next.
+
+use halfshaft_results::{Answer, HistoryResult, ResonanceResult, StaticResult};
+
+/// A hint at the question that usually follows.
+pub(crate) fn next(answer: &Answer) -> Option<String> {
+    let hint = match answer {
+        Answer::Check(_) => {
+            "`halfshaft static` for the wind-up and what the shafts carry, `halfshaft modes` for \
+             natural frequencies, `halfshaft report` for everything on one page"
+        }
+        Answer::Static(result) => after_static(result),
+        Answer::Modes(_) => {
+            "`halfshaft resonance` for the vibration under the oscillating torques, `halfshaft \
+             shock` for the answer to a load pulse"
+        }
+        Answer::History(result) => after_history(result)?,
+        Answer::Resonance(result) => return Some(after_resonance(result)),
+        Answer::Folds(_) => {
+            "`halfshaft resonance --set \"ADDRESS=VALUE\"` for the response at a point of this plane"
+        }
+        Answer::Study(_) => return None,
+        Answer::Report(report) => {
+            let shaft = report.check.shafts.first().map_or("SHAFT", |shaft| shaft.name.as_str());
+            return Some(format!(
+                "change a value and ask again, for instance `halfshaft static --set \
+                 \"{}.stiffness=VALUE\"`",
+                crate::words::plain(shaft)
+            ));
+        }
+    };
+    Some(hint.to_owned())
+}
+
+fn after_static(result: &StaticResult) -> &'static str {
+    if result.equilibria.iter().any(|state| state.stable) {
+        "`halfshaft modes` for the natural frequencies about this state"
+    } else {
+        "lower the mean torques, take another gear or a stiffer shaft with --set \"ADDRESS=VALUE\""
+    }
+}
+
+fn after_history(result: &HistoryResult) -> Option<&'static str> {
+    let shock = result.shock.as_ref()?;
+    shock.comparison.is_empty().then_some(
+        "`--compare` sets the other methods beside this one, `--out shock.html` shows the figures",
+    )
+}
+
+fn after_resonance(result: &ResonanceResult) -> String {
+    let check = if result.verification.is_empty() {
+        "`--verify` to hold this against integration of the full equations, "
+    } else {
+        ""
+    };
+    let damping = result.scaling.first().map_or_else(
+        || "ADDRESS=A..B".to_owned(),
+        |scaling| format!("{}.damping=A..B", crate::words::plain(&scaling.shaft)),
+    );
+    format!("{check}`halfshaft folds --parameter \"{damping}\"` for where the response folds")
+}

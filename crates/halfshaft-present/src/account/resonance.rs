@@ -1,0 +1,223 @@
+//! What is told of a resonance.
+
+use halfshaft_results::{
+    Branch, JumpSpeeds, ModeScaling, ResonanceResult, SpecialKind, SpecialPoint, VerifiedPoint,
+};
+
+use super::{Account, Grid, Tone, check::minus};
+use crate::words::{capital, counted, frequency_words, number, percent, plain, quantity};
+
+/// The whole account.
+pub(crate) fn account(result: &ResonanceResult) -> Account {
+    let mut account = Account::default();
+    for (index, scaling) in result.scaling.iter().enumerate() {
+        account.text([peak(result, index), threshold(scaling)]);
+    }
+    account.text(jumps(result));
+    for (index, scaling) in result.scaling.iter().enumerate() {
+        account.figure(crate::figures::resonance::id(result, index));
+        account.text([format!("Scaling: {}.", statement(scaling))]);
+    }
+    account.grid(coefficients(result));
+    let folds = folds(result);
+    if folds.rows() > 0 {
+        account.note(
+            "A fold is where two responses meet and vanish: a slow sweep jumps there. The backbone \
+             is where the peaks lie as the excitation grows. Between the folds three responses \
+             exist, and the middle one is never seen, because it is not stable.",
+        );
+    }
+    account.grid(folds);
+    account.text([verdict(result)]);
+    account.grid(verification(result));
+    if !result.verification.is_empty() {
+        account.note(
+            "Integrated means a periodic motion of the full equations, found from the prediction. \
+             Its largest Floquet multiplier is the factor by which a small disturbance changes over \
+             one period: below 1 it dies out.",
+        );
+    }
+    account
+}
+
+/// The scaling in the program's own words, with a true minus.
+pub(crate) fn statement(scaling: &ModeScaling) -> String {
+    capital(minus(&plain(&scaling.statement)).trim_end_matches('.'))
+}
+
+/// Where the response is largest and how large it is there.
+pub(crate) fn peak(result: &ResonanceResult, index: usize) -> String {
+    let (Some(scaling), Some(peak)) = (result.scaling.get(index), result.peaks.get(index)) else {
+        return "The response has no peak.".to_owned();
+    };
+    let value = |name: &str| peak.get(name).copied();
+    let Some(frequency) = value("frequency") else { return String::new() };
+    let shaft = plain(&scaling.shaft);
+    let order = match scaling.order {
+        1.0 => String::new(),
+        order => format!(" of order {}", number(order, 4)),
+    };
+    let mut text =
+        format!("Excitation{order} drives the {shaft} most at {}", frequency_words(frequency));
+    if let Some(rho) = value("rho") {
+        text += &format!(": its twist swings by ±{}", crate::words::angle(rho));
+    }
+    if let Some(torque) = value(&format!("{}.torque.harmonic1", scaling.shaft)) {
+        text += &format!(", its torque by ±{}", quantity(torque, 5, "N·m"));
+    }
+    format!("{text}.")
+}
+
+/// How far the response is from folding.
+pub(crate) fn threshold(scaling: &ModeScaling) -> String {
+    let Some(threshold) = scaling.fold_threshold_f else {
+        return "This response cannot fold, whatever the excitation.".to_owned();
+    };
+    let from = quantity(threshold, 5, "rad/s²");
+    let model = quantity(scaling.f, 5, "rad/s²");
+    match scaling.fold_threshold_factor {
+        Some(factor) if factor > 1.0 => format!(
+            "It does not jump: the excitation would have to be {} larger (folds begin at f = {from}; \
+             the model has f = {model}).",
+            times_exactly(factor)
+        ),
+        Some(factor) => format!(
+            "It folds: folds begin at f = {from}, and the model has f = {model}, {} that.",
+            times_exactly(1.0 / factor)
+        ),
+        None => format!("Folds would begin at f = {from}."),
+    }
+}
+
+fn times_exactly(factor: f64) -> String {
+    format!("{}\u{a0}times", number(factor, 4))
+}
+
+/// The jumps of slow sweeps, one sentence each.
+pub(crate) fn jumps(result: &ResonanceResult) -> Vec<String> {
+    let shaft = result.scaling.first().map_or_else(String::new, |scaling| plain(&scaling.shaft));
+    result.jumps.iter().map(|jump| told(jump, &shaft)).collect()
+}
+
+fn told(jump: &JumpSpeeds, shaft: &str) -> String {
+    let speed =
+        format!("{} ({})", quantity(jump.rpm, 5, "rpm"), quantity(jump.frequency, 6, "rad/s"));
+    let before = number(jump.rho_before, 4);
+    let sweep = plain(&jump.sweep);
+    match jump.rho_after {
+        Some(after) => format!(
+            "Sweeping {sweep}, the twist of the {shaft} jumps at {speed} from ±{before} to ±{} rad.",
+            number(after, 4)
+        ),
+        None => format!(
+            "Sweeping {sweep}, the twist of the {shaft} leaves ±{before} rad at {speed}, and no other \
+             periodic response is there to take over."
+        ),
+    }
+}
+
+/// The coefficients of the oscillator that each exciting order sees.
+fn coefficients(result: &ResonanceResult) -> Grid {
+    let rows = &result.scaling;
+    let values = |of: fn(&ModeScaling) -> f64| rows.iter().map(move |scaling| Some(of(scaling)));
+    let title = "The mode as an oscillator: x'' + ω₁² x + α x³ + β x' = f cos(ω t)";
+    Grid::new(title)
+        .words("order", rows.iter().map(|scaling| number(scaling.order, 4)))
+        .words("x is the twist of", rows.iter().map(|scaling| &scaling.shaft))
+        .numbers("modal inertia", "kg·m²", 6, values(|s| s.modal_inertia))
+        .numbers("ω₁", "rad/s", 6, values(|s| s.omega_1))
+        .numbers("α", "1/(rad² s²)", 6, values(|s| s.alpha))
+        .numbers("β", "1/s", 6, values(|s| s.beta))
+        .numbers("f", "rad/s²", 6, values(|s| s.f))
+        .numbers("f to fold", "rad/s²", 6, rows.iter().map(|s| s.fold_threshold_f))
+        .without_empty_columns()
+}
+
+/// All folds of all branches, by frequency.
+pub(crate) fn fold_points(branches: &[Branch]) -> Vec<&SpecialPoint> {
+    let all = branches.iter().flat_map(|branch| &branch.special_points);
+    all.filter(|point| point.kind == SpecialKind::Fold).collect()
+}
+
+fn folds(result: &ResonanceResult) -> Grid {
+    let points = fold_points(&result.branches);
+    let of = |name: &'static str| points.iter().map(move |point| point.value(name));
+    let torque = |point: &SpecialPoint| {
+        let scaling = result.scaling.first()?;
+        point.value(&format!("{}.torque.harmonic1", scaling.shaft))
+    };
+    let status = |point: &&SpecialPoint| match point.status {
+        halfshaft_results::Status::Located => "located",
+        halfshaft_results::Status::Bracketed => "between two samples",
+    };
+    Grid::new("Folds")
+        .words("no.", (1..=points.len()).map(|number| number.to_string()))
+        .numbers("excitation speed", "rad/s", 7, of("frequency"))
+        .numbers("excitation speed", "rpm", 6, points.iter().map(|p| rpm(p.value("frequency"))))
+        .numbers("detuning σ", "rad/s", 6, of("sigma"))
+        .numbers("amplitude ρ", "rad", 6, of("rho"))
+        .numbers("torque, first harmonic", "N·m", 5, points.iter().map(|point| torque(point)))
+        .words("", points.iter().map(status))
+        .without_empty_columns()
+}
+
+fn rpm(frequency: Option<f64>) -> Option<f64> {
+    frequency.map(|frequency| frequency * 30.0 / std::f64::consts::PI)
+}
+
+/// The check nearest to the largest response, and the check with the largest difference.
+pub(crate) fn best_and_worst(points: &[VerifiedPoint]) -> Option<(&VerifiedPoint, &VerifiedPoint)> {
+    let finite = || points.iter().filter(|point| point.relative_difference.is_finite());
+    let top = finite().max_by(|a, b| a.integrated.total_cmp(&b.integrated))?;
+    let worst = finite()
+        .max_by(|a, b| a.relative_difference.abs().total_cmp(&b.relative_difference.abs()))?;
+    Some((top, worst))
+}
+
+/// How well the closed form agrees with integration.
+pub(crate) fn verdict(result: &ResonanceResult) -> String {
+    let points = &result.verification;
+    let Some((top, worst)) = best_and_worst(points) else { return String::new() };
+    let disagree = points.iter().filter(|p| p.predicted_stable != p.integrated_stable).count();
+    let stability = if disagree == 0 {
+        "stability agrees at all of them".to_owned()
+    } else {
+        format!("stability disagrees at {}", counted(disagree, "point", "points"))
+    };
+    format!(
+        "Held against integration of the full equations at {}: at the largest response checked \
+         ({}) the closed form differs by {}; the largest difference is {} at {}; {stability}.",
+        counted(points.len(), "speed", "speeds"),
+        quantity(top.frequency, 5, "rad/s"),
+        percent(top.relative_difference.abs(), 2),
+        percent(worst.relative_difference.abs(), 2),
+        quantity(worst.frequency, 5, "rad/s"),
+    )
+}
+
+fn verification(result: &ResonanceResult) -> Grid {
+    let rows = &result.verification;
+    let values = |of: fn(&VerifiedPoint) -> f64| rows.iter().map(move |point| Some(of(point)));
+    let word = |stable: bool| if stable { "stable" } else { "unstable" };
+    Grid::new("Closed form held against integration: first harmonic of the twist")
+        .numbers("excitation speed", "rad/s", 6, values(|p| p.frequency))
+        .numbers("excitation speed", "rpm", 5, rows.iter().map(|p| rpm(Some(p.frequency))))
+        .numbers("closed form", "rad", 6, values(|p| p.predicted))
+        .numbers("integrated", "rad", 6, values(|p| p.integrated))
+        .numbers("difference", "%", 3, values(|p| 100.0 * p.relative_difference))
+        .words(
+            "stability (both)",
+            rows.iter().map(|point| {
+                if point.predicted_stable == point.integrated_stable {
+                    word(point.predicted_stable).to_owned()
+                } else {
+                    let (one, other) = (point.predicted_stable, point.integrated_stable);
+                    format!("{} / {}", word(one), word(other))
+                }
+            }),
+        )
+        .numbers("largest multiplier", "", 4, values(|p| p.largest_multiplier))
+        .with_tones(rows.iter().map(|point| {
+            if point.predicted_stable == point.integrated_stable { Tone::Usual } else { Tone::Bad }
+        }))
+}

@@ -1,0 +1,158 @@
+//! Fold curves in the plane of excitation speed and one parameter.
+
+use halfshaft_results::{FoldsResult, Table};
+
+use super::axes::{column_axis, speed_axis};
+use super::slug;
+use crate::account::folds::cusp_points;
+use crate::figure::{
+    Colour, Curve, Figure, Label, Line, Marker, Panel, Points, Reference, Region, escape,
+};
+use crate::words::{number, quantity, unit};
+
+/// The id of the figure of a plane.
+pub(crate) fn id(result: &FoldsResult) -> String {
+    format!("folds-{}", slug(&result.parameter))
+}
+
+/// The figure of a plane.
+pub(super) fn figure(result: &FoldsResult) -> Figure {
+    let curves: Vec<(Vec<f64>, Vec<f64>)> =
+        result.curves.iter().map(|table| positive(table, &result.parameter)).collect();
+    let mut y = column_axis(&result.parameter, &result.parameter_unit);
+    y.range = range(result, &curves);
+    let mut panel = Panel::new(speed_axis(), y);
+    for (x, y) in areas(&curves) {
+        panel = panel.with(Region::new(several(result), x, y, Colour::Sky));
+    }
+    for (x, y) in curves {
+        panel = panel.with(Curve::new("fold", x, y, Colour::PRIMARY));
+    }
+    panel = panel.with_all(cusps(result)).with_all(own_value(result));
+    if result.curves.is_empty() {
+        panel = with_remark(panel, result);
+    }
+    let title = format!(
+        "Fold curves over excitation speed and {}",
+        escape(&crate::words::column_label(&result.parameter))
+    );
+    Figure::new(id(result), title).with_caption(caption(result)).with(panel)
+}
+
+/// An empty plane about the resonance, saying that it is empty.
+fn with_remark(mut panel: Panel, result: &FoldsResult) -> Panel {
+    let resonance = result.scaling.as_ref().map(|scaling| scaling.omega_1 / scaling.order);
+    let middle = resonance.filter(|speed| speed.is_finite() && *speed > 0.0).unwrap_or(1.0);
+    panel.x = panel.x.with_range(0.8 * middle, 1.2 * middle);
+    let (low, high) = panel.y.range.unwrap_or((0.0, 1.0));
+    let height = low + 0.5 * (high - low);
+    panel.with(Label::new(middle, height, "no response folds in this range"))
+}
+
+fn several(result: &FoldsResult) -> &'static str {
+    let higher = |key: &str| {
+        result.scaling.as_ref().is_some_and(|scaling| {
+            scaling.coefficients.get(key).is_some_and(|coefficient| *coefficient != 0.0)
+        })
+    };
+    if higher("x5") || higher("x7") { "three or more responses" } else { "three responses" }
+}
+
+fn caption(result: &FoldsResult) -> String {
+    let mut text =
+        "In the shaded wedge three responses exist; a slow sweep through it jumps at its \
+                    edges. Stars are cusps, where the jump begins."
+            .to_owned();
+    if result.parameter_value.is_some() {
+        text += " The dashed line is the model's own value.";
+    }
+    if result.curves.is_empty() {
+        "No response folds in this range.".clone_into(&mut text);
+    }
+    text
+}
+
+/// The part of a curve at positive speeds: far from the resonance the closed form runs on to speeds
+/// that no shaft has.
+fn positive(table: &Table, parameter: &str) -> (Vec<f64>, Vec<f64>) {
+    let rows = table.values("frequency").iter().zip(table.values(parameter));
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    let mut before: Option<(f64, f64)> = None;
+    for (x, y) in rows.map(|(x, y)| (*x, *y)) {
+        // The curve ends just at speed zero, not at the last sample before it.
+        if let Some((x0, y0)) = before.filter(|(x0, _)| (*x0 > 0.0) != (x > 0.0)) {
+            points.push((0.0, y0 + (y - y0) * x0 / (x0 - x)));
+        }
+        if x > 0.0 {
+            points.push((x, y));
+        }
+        before = Some((x, y));
+    }
+    points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).unzip()
+}
+
+/// What lies between folds: within a curve that turns at a cusp, or between two that do not.
+pub(super) fn areas(curves: &[(Vec<f64>, Vec<f64>)]) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let mut areas = Vec::new();
+    let mut open: Vec<&(Vec<f64>, Vec<f64>)> = Vec::new();
+    for curve in curves.iter().filter(|curve| curve.1.len() > 2) {
+        if turns(&curve.1) { areas.push(curve.clone()) } else { open.push(curve) }
+    }
+    if let [(x, y), (x2, y2)] = open.as_slice() {
+        let back = |first: &[f64], second: &[f64]| {
+            first.iter().chain(second.iter().rev()).copied().collect::<Vec<f64>>()
+        };
+        // Both run the same way over the parameter.
+        areas.push((back(x, x2), back(y, y2)));
+    }
+    areas
+}
+
+/// Whether the parameter goes to a turning point and back along a curve.
+fn turns(values: &[f64]) -> bool {
+    let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
+    let extremes = values
+        .iter()
+        .copied()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    let span = extremes.1 - extremes.0;
+    let far = |extreme: f64| (extreme - first).abs().min((extreme - last).abs()) > 0.3 * span;
+    far(extremes.0) || far(extremes.1)
+}
+
+fn cusps(result: &FoldsResult) -> Option<Points> {
+    let places: Vec<(f64, f64)> = cusp_points(result)
+        .filter_map(|point| Some((point.value("frequency")?, point.value(&result.parameter)?)))
+        .collect();
+    if places.is_empty() {
+        return None;
+    }
+    let symbol = escape(unit(&result.parameter_unit));
+    let labels = places.iter().map(|(_, y)| format!("cusp {}", quantity(*y, 6, &symbol))).collect();
+    let (x, y) = places.into_iter().unzip();
+    let points = Points::new("cusp", x, y, Colour::DANGER).with_marker(Marker::Star);
+    Some(Points { size: 8.0, ..points.with_labels(labels) })
+}
+
+fn own_value(result: &FoldsResult) -> Option<Reference> {
+    let value = result.parameter_value.filter(|value| value.is_finite())?;
+    let symbol = escape(unit(&result.parameter_unit));
+    let label = format!("model: {} {symbol}", number(value, 5));
+    Some(Reference { line: Line::Dashed, ..Reference::horizontal(value, label, Colour::Black) })
+}
+
+/// The asked range of the parameter, so that an empty plane still shows what was searched.
+fn range(result: &FoldsResult, curves: &[(Vec<f64>, Vec<f64>)]) -> Option<(f64, f64)> {
+    let asked = result.header.settings.get("parameter")?;
+    let end = |key: &str| asked.get(key).and_then(serde_json::Value::as_f64);
+    let (mut low, mut high) = (end("from")?, end("to")?);
+    let seen = curves.iter().flat_map(|curve| curve.1.iter().copied());
+    for value in seen.chain(result.parameter_value) {
+        low = low.min(value);
+        high = high.max(value);
+    }
+    let pad = 0.04 * (high - low);
+    let held =
+        |value: f64, padded: f64| if value * padded < 0.0 || value == 0.0 { 0.0 } else { padded };
+    Some((held(low, low - pad), held(high, high + pad)))
+}

@@ -1,0 +1,55 @@
+//! How good the numbers are.
+
+use halfshaft_results::ReportResult;
+
+use super::{Finding, Standing};
+use crate::account::{methods, resonance};
+use crate::words::{number, percent, quantity};
+
+/// A closed form within this of integration, at the largest response, is good for design.
+const GOOD: f64 = 0.05;
+
+/// Closed forms against integration, and the energy balance.
+pub(super) fn trust(report: &ReportResult) -> Vec<Finding> {
+    let mut found = Vec::new();
+    found.extend(closed_form(report));
+    found.extend(orders(report));
+    found.extend(energy(report));
+    found
+}
+
+fn closed_form(report: &ReportResult) -> Option<Finding> {
+    let points = &report.resonance.as_ref()?.verification;
+    let (top, worst) = resonance::best_and_worst(points)?;
+    let difference = top.relative_difference.abs();
+    let digits = if difference > 0.0 { -difference.log10() } else { 16.0 };
+    let apart = (worst.frequency / top.frequency - 1.0).abs();
+    let off = if apart > 0.15 { ", off the resonance, where averaging is rough" } else { "" };
+    let text = format!(
+        "At the largest response checked the closed form agrees with integration of the full \
+         equations to {} digits ({}). The largest difference in the range is {}, at {}{off}.",
+        number(digits.clamp(0.0, 16.0), 2),
+        percent(difference, 2),
+        percent(worst.relative_difference.abs(), 2),
+        quantity(worst.frequency, 4, "rad/s")
+    );
+    let same = points.iter().all(|point| point.predicted_stable == point.integrated_stable);
+    let standing = if difference <= GOOD && same { Standing::Note } else { Standing::Watch };
+    Some(Finding::new(standing, "Agreement", text))
+}
+
+fn orders(report: &ReportResult) -> Option<Finding> {
+    let rows = &report.shock.as_ref()?.shock.as_ref()?.comparison;
+    let (first, second) = methods::orders(rows).into_iter().next()?;
+    let text = methods::second_against_first(first, second)?;
+    Some(Finding::new(Standing::Note, "Closed form of the shock", text))
+}
+
+fn energy(report: &ReportResult) -> Option<Finding> {
+    let balance = report.shock.as_ref()?.metrics.energy_balance.as_ref()?;
+    let text = format!(
+        "The energy balance of the shock closes to {} of the energy turned over.",
+        number(balance.relative_residual.abs(), 2)
+    );
+    Some(Finding::new(Standing::Note, "Energy", text))
+}

@@ -1,0 +1,11 @@
+//! How numbers, names and columns read.
+
+pub(crate) use column::{Quantity, column_label, column_words};
+pub(crate) use name::{capital, counted, list, plain, short};
+pub(crate) use number::{MISSING, common_decimals, decimals, number, percent, places, times};
+pub(crate) use units::{angle, frequency_words, quantity, unit};
+
+mod column;
+mod name;
+mod number;
+mod units;

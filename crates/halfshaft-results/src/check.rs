@@ -1,0 +1,111 @@
+//! Answer of `check`: the line as the program understands it.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Header;
+
+/// A node of a group that turns rigidly together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Member {
+    /// Name of the node.
+    pub node: String,
+    /// Its own inertia, kg·m²; 0 where it has none.
+    pub inertia: f64,
+    /// Its speed over the speed of the reference node.
+    pub ratio: f64,
+    /// Its damping to ground, N·m·s/rad.
+    pub damping: f64,
+}
+
+/// Nodes that gears hold together, as one inertia.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReducedInertia {
+    /// Node to which the inertia is reduced.
+    pub reference: String,
+    /// Sum of `ratio² · inertia`, kg·m².
+    pub inertia: f64,
+    /// The nodes.
+    pub members: Vec<Member>,
+}
+
+/// A gear.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedGear {
+    /// Name.
+    pub name: String,
+    /// Input node.
+    pub input: String,
+    /// Output node.
+    pub output: String,
+    /// Input speed over output speed.
+    pub ratio: f64,
+    /// Other ratios that it offers.
+    pub ratios: Vec<f64>,
+}
+
+/// A term of a shaft's law beyond the linear one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NonlinearTerm {
+    /// Key of the term, e.g. `cubic`.
+    pub key: String,
+    /// Its coefficient.
+    pub coefficient: f64,
+    /// Unit of the coefficient.
+    pub unit: String,
+    /// What it does, in words.
+    pub effect: String,
+}
+
+/// A shaft.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedShaft {
+    /// Name.
+    pub name: String,
+    /// Node at the `from` end.
+    pub from: String,
+    /// Node at the `to` end.
+    pub to: String,
+    /// Linear stiffness, N·m/rad.
+    pub stiffness: f64,
+    /// Damping, N·m·s/rad.
+    pub damping: f64,
+    /// Terms beyond the linear one that are not zero.
+    pub nonlinear_terms: Vec<NonlinearTerm>,
+}
+
+/// A torque.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedTorque {
+    /// Name.
+    pub name: String,
+    /// Node it acts on.
+    pub on: String,
+    /// Mean, N·m; `None` where it balances the others.
+    pub mean: Option<f64>,
+    /// Harmonics as (order, amplitude in N·m, phase in rad), those with an amplitude.
+    pub harmonics: Vec<(f64, f64, f64)>,
+    /// The pulse in words, if any.
+    pub pulse: Option<String>,
+}
+
+/// Answer of `check`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckResult {
+    /// What every result says.
+    #[serde(flatten)]
+    pub header: Header,
+    /// Free text about the line.
+    pub description: String,
+    /// Whether a shaft holds the line at ground.
+    pub grounded: bool,
+    /// Degrees of freedom.
+    pub degrees_of_freedom: usize,
+    /// The line's inertias with the gears taken out.
+    pub reduced_inertias: Vec<ReducedInertia>,
+    /// Gears.
+    pub gears: Vec<CheckedGear>,
+    /// Shafts.
+    pub shafts: Vec<CheckedShaft>,
+    /// Torques.
+    pub torques: Vec<CheckedTorque>,
+}

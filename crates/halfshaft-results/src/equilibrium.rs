@@ -1,0 +1,108 @@
+//! Answer of `static`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Header, Named, Table};
+
+/// One state of rest or of uniform running.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Equilibrium {
+    /// Twist of each shaft, rad.
+    pub twist: Named<f64>,
+    /// Torque of each shaft, N·m.
+    pub torque: Named<f64>,
+    /// Whether the line stays there when nudged.
+    pub stable: bool,
+    /// Smallest eigenvalue of the tangent stiffness over the inertia with the rigid-body
+    /// motion taken out, s⁻²: the square of the lowest natural frequency where positive.
+    pub lowest_eigenvalue: f64,
+}
+
+/// Where a shaft's law stops carrying more torque.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limit {
+    /// Largest torque on the way from zero twist, N·m.
+    pub torque: f64,
+    /// Twist at that torque, rad.
+    pub twist: f64,
+}
+
+/// Limits of a shaft in both directions; `None` where the torque grows without bound.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShaftCapacity {
+    /// For positive twist.
+    pub positive: Option<Limit>,
+    /// For negative twist.
+    pub negative: Option<Limit>,
+}
+
+/// How the line runs under its mean torques.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RunningKind {
+    /// Held by a shaft to ground: it stands still.
+    Held,
+    /// Free, and the mean torques balance: any constant speed.
+    Balanced,
+    /// Free, the mean torques do not balance: uniform acceleration.
+    Accelerating,
+    /// Free with damping to ground: the speed at which damping balances the mean torques.
+    SteadySpeed,
+}
+
+/// How the line runs under its mean torques.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Running {
+    /// Which case.
+    pub kind: RunningKind,
+    /// Node whose motion is meant below.
+    pub node: String,
+    /// Angular acceleration of that node, rad/s².
+    pub acceleration: f64,
+    /// Angular speed of that node, rad/s, for [`RunningKind::SteadySpeed`].
+    pub speed: f64,
+    /// Mean torques that follow from the balance, N·m, by torque name.
+    pub balancing: Named<f64>,
+}
+
+/// What one gear asks of the shafts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GearState {
+    /// Name of the gearbox.
+    pub gear: String,
+    /// Its ratio.
+    pub ratio: f64,
+    /// Torque that each shaft must carry, N·m.
+    pub required_torque: Named<f64>,
+    /// Twist of each shaft in the stable state of rest; empty where there is none.
+    pub twist: Named<f64>,
+    /// Whether a stable state of rest exists.
+    pub exists: bool,
+    /// The shaft that cannot carry its torque, if any.
+    pub overloaded: Option<String>,
+}
+
+/// Answer of `static`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StaticResult {
+    /// What every result says.
+    #[serde(flatten)]
+    pub header: Header,
+    /// All equilibria, those nearer to zero twist first.
+    pub equilibria: Vec<Equilibrium>,
+    /// Whether the list of equilibria is proven to be complete.
+    pub complete: bool,
+    /// Largest torque of each shaft in the direction in which it is loaded (the smaller one
+    /// where it is not), N·m; `null` where it is unbounded.
+    pub torque_capacity: Named<Option<f64>>,
+    /// Limits of each shaft in both directions.
+    pub capacity: Named<ShaftCapacity>,
+    /// Torque that each shaft must carry, N·m, where statics alone decides it.
+    pub required_torque: Named<f64>,
+    /// How the line runs.
+    pub running: Running,
+    /// What other gears ask, where the model lists ratios.
+    pub gears: Vec<GearState>,
+    /// Torque over twist of each shaft: `twist`, `torque`, `stiffness`.
+    pub curves: Named<Table>,
+}

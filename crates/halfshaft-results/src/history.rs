@@ -1,0 +1,161 @@
+//! Answer of `simulate` and `shock`: one time history with its metrics.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Column, Header, Named, Table};
+
+/// Where the energy went; what is left over is the error of the integration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergyBalance {
+    /// Kinetic and potential energy at the start, J.
+    pub initial: f64,
+    /// Kinetic and potential energy at the end, J.
+    pub stored: f64,
+    /// Work done by the external torques, J.
+    pub work: f64,
+    /// Heat in the dampers, J.
+    pub dissipated: f64,
+    /// `initial + work - dissipated - stored`, J.
+    pub residual: f64,
+    /// The residual over the energy that was turned over.
+    pub relative_residual: f64,
+}
+
+/// Extremes of one channel over the recorded time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ChannelMetrics {
+    /// Smallest value.
+    pub minimum: f64,
+    /// Largest value.
+    pub maximum: f64,
+    /// Half of peak to peak.
+    pub amplitude: f64,
+    /// Mean over time.
+    pub mean: f64,
+}
+
+/// How a shaft takes a disturbance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ShaftMetrics {
+    /// Twist at the first turning point after the disturbance, less the final twist, rad.
+    pub first_peak: f64,
+    /// When, s.
+    pub first_peak_time: f64,
+    /// Rate of twist at its first turning point, rad/s.
+    pub first_rate_peak: f64,
+    /// When, s.
+    pub first_rate_peak_time: f64,
+    /// Torque of largest magnitude, with its sign, N·m.
+    pub peak_torque: f64,
+    /// When, s.
+    pub peak_torque_time: f64,
+    /// Torque at the state before the disturbance, N·m.
+    pub static_torque: f64,
+    /// Peak torque over static torque; `None` where the shaft was unloaded.
+    pub dynamic_factor: Option<f64>,
+    /// When the twist stays within 5 % of the first peak for good, s; `None` where it does
+    /// not settle in the time simulated.
+    pub settling_time: Option<f64>,
+    /// Frequency of the free oscillation, rad/s, from its turning points; `None` where there
+    /// are too few.
+    pub oscillation_frequency: Option<f64>,
+    /// Rate at which the oscillation decays, 1/s.
+    pub decay_rate: Option<f64>,
+    /// Decay rate over frequency of oscillation, as a damping ratio.
+    pub damping_ratio: Option<f64>,
+}
+
+/// Metrics of a time history.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HistoryMetrics {
+    /// How each shaft takes the disturbance; only for `shock`.
+    pub shafts: Named<ShaftMetrics>,
+    /// Extremes of every channel over the recorded time.
+    pub channels: Named<ChannelMetrics>,
+    /// Energy balance of the whole run, where the method is an integration.
+    pub energy_balance: Option<EnergyBalance>,
+    /// Accepted steps of the integration.
+    pub steps: u64,
+    /// Evaluations of the equations of motion.
+    pub evaluations: u64,
+}
+
+/// One method of answering a shock, beside the others.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MethodRow {
+    /// Name of the method, with its order where it has one.
+    pub method: String,
+    /// What it solves.
+    pub equation: String,
+    /// First peak of the disturbance, rad.
+    pub first_peak: f64,
+    /// When, s.
+    pub first_peak_time: f64,
+    /// First peak of its rate, rad/s.
+    pub first_rate_peak: f64,
+    /// Frequency of the free oscillation, rad/s.
+    pub oscillation_frequency: Option<f64>,
+    /// Decay rate, 1/s.
+    pub decay_rate: Option<f64>,
+    /// First peak over that of the reference, less 1.
+    pub first_peak_error: Option<f64>,
+    /// First peak of the rate over that of the reference, less 1.
+    pub first_rate_peak_error: Option<f64>,
+    /// Largest difference to the reference over the whole history, over its first peak.
+    pub largest_difference: Option<f64>,
+    /// Phase behind (negative) or ahead of the reference after 2 s, rad.
+    pub phase_error: Option<f64>,
+    /// Name of the method that the errors are against.
+    pub reference: Option<String>,
+}
+
+/// What `shock` says beyond its history.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShockDetails {
+    /// Name of the method.
+    pub method: String,
+    /// The shaft whose twist is disturbed.
+    pub shaft: String,
+    /// Meaning of the history's variables, as a sentence.
+    pub variable: String,
+    /// Twist of each shaft before the disturbance, rad.
+    pub equilibrium: Named<f64>,
+    /// Coefficients of the equation solved, where it is a single one: `omega_0`, `alpha_0`,
+    /// `mu`, `gamma`.
+    pub coefficients: Named<f64>,
+    /// All methods side by side, where that was asked.
+    pub comparison: Vec<MethodRow>,
+    /// Time histories of all methods, where that was asked: `time`, then one column a method
+    /// with the twist less its value before the disturbance.
+    pub comparison_history: Option<Table>,
+}
+
+/// Answer of `simulate` and `shock`: a table, first column `time`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HistoryResult {
+    /// What every result says.
+    #[serde(flatten)]
+    pub header: Header,
+    /// Columns: `time`, then the channels.
+    pub columns: Vec<Column>,
+    /// Metrics.
+    pub metrics: HistoryMetrics,
+    /// What `shock` says beyond its history.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shock: Option<ShockDetails>,
+}
+
+impl HistoryResult {
+    /// The history as a table.
+    pub fn table(&self) -> Table {
+        Table::new(self.columns.clone())
+    }
+
+    /// Values of the column of that name; empty where there is none.
+    pub fn values(&self, name: &str) -> &[f64] {
+        self.columns
+            .iter()
+            .find(|column| column.name == name)
+            .map_or(&[], |column| column.values.as_slice())
+    }
+}

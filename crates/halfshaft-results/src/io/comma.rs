@@ -1,0 +1,51 @@
+//! CSV text of an answer's tables.
+
+use crate::{Answer, Table};
+
+/// The tables of an answer as one CSV text: a header of `name (unit)`, then the rows. Where
+/// there are several tables, a first column names each. `None` where there is no table.
+pub fn csv(answer: &Answer) -> Option<String> {
+    let tables = answer.tables();
+    if tables.is_empty() {
+        return None;
+    }
+    let several = tables.len() > 1;
+    let mut names: Vec<(String, String)> = Vec::new();
+    for (_, table) in &tables {
+        for column in &table.columns {
+            if !names.iter().any(|(name, _)| *name == column.name) {
+                names.push((column.name.clone(), column.unit.clone()));
+            }
+        }
+    }
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let head = names.iter().map(|(name, unit)| match unit.as_str() {
+        "1" | "" => name.clone(),
+        _ => format!("{name} ({unit})"),
+    });
+    let table_head = several.then(|| "table".to_owned());
+    // Writing to memory cannot fail.
+    let _ = writer.write_record(table_head.into_iter().chain(head));
+    for (title, table) in &tables {
+        write_rows(&mut writer, table, &names, several.then_some(title.as_str()));
+    }
+    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok())
+}
+
+fn write_rows(
+    writer: &mut csv::Writer<Vec<u8>>,
+    table: &Table,
+    names: &[(String, String)],
+    title: Option<&str>,
+) {
+    let columns: Vec<&[f64]> = names.iter().map(|(name, _)| table.values(name)).collect();
+    for row in 0..table.rows() {
+        let cells = columns.iter().map(|values| match values.get(row) {
+            Some(value) if value.is_finite() => value.to_string(),
+            _ => String::new(),
+        });
+        let title = title.map(str::to_owned);
+        // Writing to memory cannot fail.
+        let _ = writer.write_record(title.into_iter().chain(cells));
+    }
+}

@@ -1,0 +1,47 @@
+//! Plain values that halfshaft's analyses answer with, and their files.
+//!
+//! Nothing here computes. An [`Answer`] is one of the results below; every result begins
+//! with a [`Header`] (which analysis, of which model, with which settings, how it ended),
+//! can be written, read back, and compares equal to itself then.
+//!
+//! - [`Table`]: named columns with units; the shape of everything that can be plotted.
+//! - [`CheckResult`], [`StaticResult`], [`ModesResult`], [`HistoryResult`] (simulate and
+//!   shock), [`ResonanceResult`], [`FoldsResult`], [`StudyResult`], [`ReportResult`].
+//! - [`io`]: JSON and CSV files, written under a temporary name and renamed.
+
+mod answer;
+mod check;
+mod equilibrium;
+mod folds;
+mod header;
+mod history;
+pub mod io;
+mod modes;
+mod report;
+mod resonance;
+mod special;
+mod study;
+mod table;
+
+pub use answer::Answer;
+pub use check::{
+    CheckResult, CheckedGear, CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
+};
+pub use equilibrium::{
+    Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, StaticResult,
+};
+pub use folds::FoldsResult;
+pub use header::{Header, ModelIdentity, Reason, Termination};
+pub use history::{
+    ChannelMetrics, EnergyBalance, HistoryMetrics, HistoryResult, MethodRow, ShaftMetrics,
+    ShockDetails,
+};
+pub use modes::{Mode, ModesResult};
+pub use report::{MissingSection, ReportResult};
+pub use resonance::{Branch, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
+pub use special::{SpecialKind, SpecialPoint, Status};
+pub use study::{ComparisonRow, ItemStyle, StudyFigureSpec, StudyItem, StudyResult};
+pub use table::{Column, Table};
+
+/// An ordered map from names to values, written as a JSON object.
+pub type Named<T> = indexmap::IndexMap<String, T>;

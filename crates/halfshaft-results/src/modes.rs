@@ -1,0 +1,40 @@
+//! Answer of `modes`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Equilibrium, Header, Named};
+
+/// One mode of vibration about an equilibrium.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mode {
+    /// Undamped natural frequency, rad/s; exactly 0 for the rigid-body mode.
+    pub frequency: f64,
+    /// Frequency of the damped oscillation, rad/s; 0 where it does not oscillate.
+    pub damped_frequency: f64,
+    /// Damping over critical damping.
+    pub damping_ratio: f64,
+    /// Motion of each node, the largest 1.
+    pub shape: Named<f64>,
+    /// Twist of each shaft in the same scale, rad.
+    pub twist: Named<f64>,
+    /// Share of the strain energy in each shaft; sums to 1, all 0 for the rigid-body mode.
+    pub strain_energy: Named<f64>,
+    /// Share of the kinetic energy in each inertia; sums to 1.
+    pub kinetic_energy: Named<f64>,
+    /// The two eigenvalues as (real, imaginary), 1/s.
+    pub eigenvalues: [(f64, f64); 2],
+    /// What the mode is, in words.
+    pub label: String,
+}
+
+/// Answer of `modes`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModesResult {
+    /// What every result says.
+    #[serde(flatten)]
+    pub header: Header,
+    /// The equilibrium about which the line vibrates.
+    pub equilibrium: Equilibrium,
+    /// Modes by ascending frequency, the rigid-body mode included.
+    pub modes: Vec<Mode>,
+}

@@ -1,0 +1,120 @@
+//! Answer of `resonance`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Column, Header, Named, SpecialPoint, Table};
+
+/// A connected piece of the response curve: a table with its special points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Branch {
+    /// `frequency`, then the values of each channel, `stable`, `unstable_dimension`.
+    pub columns: Vec<Column>,
+    /// Folds and ends on this branch, in its direction.
+    pub special_points: Vec<SpecialPoint>,
+}
+
+impl Branch {
+    /// Values of the column of that name; empty where there is none.
+    pub fn values(&self, name: &str) -> &[f64] {
+        self.columns
+            .iter()
+            .find(|column| column.name == name)
+            .map_or(&[], |column| column.values.as_slice())
+    }
+}
+
+/// How a mode of the line becomes the oscillator of the theory,
+/// `x'' + omega_1² x + alpha x³ + beta x' = f cos((omega_1 + sigma) t)`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModeScaling {
+    /// Which elastic mode, from 1.
+    pub mode: usize,
+    /// What the mode is, in words.
+    pub label: String,
+    /// The shaft whose twist beyond equilibrium is `x`.
+    pub shaft: String,
+    /// Inertia of the mode per unit of `x`, kg·m².
+    pub modal_inertia: f64,
+    /// Order of the excitation: `omega_1 + sigma = order · frequency`.
+    pub order: f64,
+    /// Natural frequency, rad/s.
+    pub omega_1: f64,
+    /// Effective cubic coefficient `cubic - 10 quadratic² / (9 omega_1²)`, 1/(rad² s²).
+    pub alpha: f64,
+    /// Damping coefficient, 1/s.
+    pub beta: f64,
+    /// Excitation amplitude, rad/s².
+    pub f: f64,
+    /// `3 alpha / (8 omega_1)`: backbone `sigma = kappa rho²`.
+    pub kappa: f64,
+    /// Coefficients of `x²` to `x⁷` in the equation before averaging, as `x2` to `x7`.
+    pub coefficients: Named<f64>,
+    /// Twist of each shaft per unit of `x`.
+    pub twist_per_x: Named<f64>,
+    /// Smallest `f` at which the response folds, rad/s²; `None` where it never does.
+    pub fold_threshold_f: Option<f64>,
+    /// The same as the factor by which the model's amplitudes must grow.
+    pub fold_threshold_factor: Option<f64>,
+    /// Amplitude of `x` at the cusp, where the threshold lies, rad.
+    pub fold_threshold_rho: Option<f64>,
+    /// The scaling as a sentence.
+    pub statement: String,
+}
+
+/// Where the response jumps on slow sweeps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JumpSpeeds {
+    /// Direction of the sweep: `up` or `down`.
+    pub sweep: String,
+    /// Excitation speed of the jump, rad/s.
+    pub frequency: f64,
+    /// The same in revolutions per minute.
+    pub rpm: f64,
+    /// Amplitude of `x` before the jump, rad.
+    pub rho_before: f64,
+    /// Amplitude of `x` after the jump, rad; `None` where no other response exists.
+    pub rho_after: Option<f64>,
+}
+
+/// One response, predicted and by integration of the full equations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VerifiedPoint {
+    /// Excitation speed, rad/s.
+    pub frequency: f64,
+    /// Predicted amplitude of the first harmonic of the twist, rad.
+    pub predicted: f64,
+    /// The same from a periodic orbit of the full equations, rad.
+    pub integrated: f64,
+    /// Half of peak to peak of that orbit, rad.
+    pub integrated_amplitude: f64,
+    /// Predicted over integrated, less 1.
+    pub relative_difference: f64,
+    /// Whether the prediction says stable.
+    pub predicted_stable: bool,
+    /// Whether all Floquet multipliers of the orbit lie inside the unit circle.
+    pub integrated_stable: bool,
+    /// Largest modulus of the Floquet multipliers.
+    pub largest_multiplier: f64,
+    /// Largest change of the state over one period of the orbit, relative.
+    pub orbit_residual: f64,
+}
+
+/// Answer of `resonance`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ResonanceResult {
+    /// What every result says.
+    #[serde(flatten)]
+    pub header: Header,
+    /// All responses, piece by piece.
+    pub branches: Vec<Branch>,
+    /// How the line was scaled to the oscillator, once for each exciting order.
+    pub scaling: Vec<ModeScaling>,
+    /// The largest response of each exciting order: `frequency`, `sigma`, `rho` and channels.
+    pub peaks: Vec<Named<f64>>,
+    /// Backbone of each exciting order: `frequency`, `sigma`, `rho` and channels.
+    pub backbones: Vec<Table>,
+    /// Where slow sweeps jump.
+    pub jumps: Vec<JumpSpeeds>,
+    /// Responses checked by integration.
+    pub verification: Vec<VerifiedPoint>,
+}

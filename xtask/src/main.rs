@@ -1,0 +1,78 @@
+//! House tasks: `cargo xtask test`, `tidy`, `generate`, `fuzz`, `page`, `bench`.
+//!
+//! `test` is what CI calls: everything that must hold, each step doing its own set-up.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a face: it talks to the terminal")]
+
+mod fuzz;
+mod generate;
+mod page;
+mod readme;
+mod run;
+mod tidy;
+
+use std::process::ExitCode;
+
+use run::{Outcome, cargo, heading};
+
+const USAGE: &str = "usage: cargo xtask TASK
+
+  test        everything that CI checks: format, house rules, generated files, lints, docs, tests,
+              the README's commands, the report in a browser, a minute of fuzzing
+  tidy        the house rules alone
+  generate    write what is generated: schema, reference pages, example figures, README output
+  readme      the README's commands alone
+  page        the report in a headless browser alone
+  fuzz        a minute of fuzzing each parser (needs a nightly toolchain)
+  bench       all criterion benches
+";
+
+fn main() -> ExitCode {
+    let task = std::env::args().nth(1).unwrap_or_default();
+    let outcome = match task.as_str() {
+        "test" => test(),
+        "tidy" => tidy::run(),
+        "generate" => generate::write(),
+        "readme" => readme::check(),
+        "page" => page::run(),
+        "fuzz" => fuzz::run(),
+        "bench" => cargo(&["bench", "--workspace"]),
+        _ => {
+            print!("{USAGE}");
+            return ExitCode::from(if task.is_empty() { 0 } else { 2 });
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("\nxtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Every check, the quick ones first.
+fn test() -> Outcome {
+    heading("format");
+    cargo(&["fmt", "--all", "--check"])?;
+    heading("house rules");
+    tidy::run()?;
+    heading("lints");
+    cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "-D", "warnings"])?;
+    heading("tests");
+    // The Parquet writer stands beside the program when the program's tests look for it.
+    cargo(&["build", "--workspace", "--quiet"])?;
+    cargo(&["test", "--workspace", "--quiet"])?;
+    heading("docs");
+    run::cargo_with(
+        &["doc", "--workspace", "--no-deps", "--quiet", "--document-private-items"],
+        &[("RUSTDOCFLAGS", "-D warnings")],
+    )?;
+    heading("generated files");
+    generate::check()?;
+    heading("README");
+    readme::check()?;
+    heading("report in a browser");
+    page::run()?;
+    heading("fuzzing");
+    fuzz::run()
+}
