@@ -10,7 +10,9 @@ use super::{folds, resonance, slug};
 use crate::account::check::minus;
 use crate::account::folds::cusp_points;
 use crate::account::resonance::fold_points;
-use crate::figure::{Axis, Colour, Curve, Figure, Item, Line, Marker, Panel, Points, Region, escape};
+use crate::figure::{
+    Axis, Colour, Curve, Figure, Item, Line, Marker, Panel, Points, Region, escape,
+};
 use crate::words::{number, plain};
 
 /// The id of the figure of that name.
