@@ -98,14 +98,13 @@ fn every_point_of_every_curve_is_a_fold() {
         let result = folds(&line, parameter);
         assert!(!result.curves.is_empty(), "{parameter}");
         for curve in &result.curves {
-            let p = curve.values(&result.parameter);
-            for row in 0..curve.rows() {
+            for (row, &value) in curve.values(&result.parameter).iter().enumerate() {
                 let (mut a, mut b, mut amplitude, mut omega) = (alpha, beta, f, OMEGA);
                 match result.parameter.as_str() {
-                    "excitation.amplitude" => amplitude = p[row],
-                    "spring.cubic" => a = p[row],
-                    "spring.damping" => b = p[row],
-                    _ => omega = p[row].sqrt(),
+                    "excitation.amplitude" => amplitude = value,
+                    "spring.cubic" => a = value,
+                    "spring.damping" => b = value,
+                    _ => omega = value.sqrt(),
                 }
                 let (sigma, rho) = (curve.values("sigma")[row], curve.values("rho")[row]);
                 let (response, fold) = residuals(sigma, rho, a, b, amplitude, omega);

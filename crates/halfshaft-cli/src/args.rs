@@ -164,7 +164,7 @@ pub struct Modes {
     #[command(flatten)]
     pub model: Model,
     /// Which equilibrium, as `static` numbers them [default: the stable one nearest zero twist]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub equilibrium: Option<String>,
 }
 
@@ -173,7 +173,7 @@ pub struct Simulate {
     #[command(flatten)]
     pub model: Model,
     /// End of the time history [default: 5s]
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub duration: Option<String>,
     /// Begin at rest (everything zero) or in the stable equilibrium [default: rest]
     #[arg(long, value_name = "rest|equilibrium")]
@@ -182,16 +182,16 @@ pub struct Simulate {
     #[arg(long, value_name = "CHANNEL=VALUE")]
     pub initial: Vec<String>,
     /// Excitation speed Ω for torques of an order, e.g. 4Hz or 240rpm
-    #[arg(long, value_name = "SPEED")]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub frequency: Option<String>,
     /// Output step [default: a two-thousandth of what is recorded]
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub step: Option<String>,
     /// Relative tolerance of the integration [default: 1e-10]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub tolerance: Option<String>,
     /// Times to keep and to measure, e.g. 500s..700s [default: all]
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub record: Option<String>,
 }
 
@@ -203,7 +203,7 @@ pub struct Shock {
     #[arg(long, value_name = "METHOD")]
     pub method: Option<String>,
     /// Order of multiple scales, 1 or 2 [default: 2]
-    #[arg(long, value_name = "1|2")]
+    #[arg(long, value_name = "1|2", allow_hyphen_values = true)]
     pub order: Option<String>,
     /// Which equation multiple scales solve: published, clamped or twist [default: published]
     #[arg(long, value_name = "EQUATION")]
@@ -212,13 +212,13 @@ pub struct Shock {
     #[arg(long, value_name = "CHANNEL=VALUE")]
     pub initial: Vec<String>,
     /// End of the time history [default: 5s]
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub duration: Option<String>,
     /// Output step [default: a two-thousandth of the duration]
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub step: Option<String>,
     /// Relative tolerance of the integration [default: 1e-10]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
     pub tolerance: Option<String>,
     /// Answer by all methods side by side
     #[arg(long)]
@@ -230,19 +230,19 @@ pub struct Resonance {
     #[command(flatten)]
     pub model: Model,
     /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz [default: about the resonance]
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
     /// How: averaged (closed form of one mode) [default: averaged]
     #[arg(long, value_name = "METHOD")]
     pub method: Option<String>,
     /// Which elastic mode [default: 1]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub mode: Option<String>,
     /// Which order of the torques [default: every order that meets the mode in the range]
-    #[arg(long, value_name = "ORDER")]
+    #[arg(long, value_name = "ORDER", allow_hyphen_values = true)]
     pub order: Option<String>,
     /// At how many speeds all responses are listed [default: 1000]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub points: Option<String>,
     /// Hold chosen responses against periodic orbits of the full equations
     #[arg(long)]
@@ -257,19 +257,19 @@ pub struct Folds {
     #[arg(long, value_name = "ADDRESS=A..B")]
     pub parameter: Option<String>,
     /// Range of the excitation speed Ω [default: all]
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
     /// How: averaged (closed form of one mode) [default: averaged]
     #[arg(long, value_name = "METHOD")]
     pub method: Option<String>,
     /// Which elastic mode [default: 1]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub mode: Option<String>,
     /// Which order of the torques [default: the one that drives the mode most]
-    #[arg(long, value_name = "ORDER")]
+    #[arg(long, value_name = "ORDER", allow_hyphen_values = true)]
     pub order: Option<String>,
     /// About how many points describe a curve [default: 200]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub points: Option<String>,
 }
 

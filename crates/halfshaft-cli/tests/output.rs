@@ -47,6 +47,12 @@ fn every_form_is_written_by_its_ending() {
         let bytes = std::fs::read(folder.path().join(name)).expect("written");
         assert!(bytes.starts_with(start), "{name}: {:?}", &bytes[..20]);
     }
+    // What has no curve has a sketch.
+    for (name, start) in &starts[2..] {
+        let result = run(folder.path(), &["check", "--out", name]);
+        assert_eq!(result.status, 0, "{}", result.err);
+        assert!(std::fs::read(folder.path().join(name)).expect("written").starts_with(start));
+    }
     let result = run(folder.path(), &["shock", "--compare", "--out", "all"]);
     assert_eq!(result.status, 0, "{}", result.err);
     let written = files(&folder.path().join("all"));

@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args_os().nth(1).ok_or("which folder?")?;
     let folder = Path::new(&folder);
     let starter = Source::new("starter", embedded::starter());
-    let branched = Source::new("branched", &branched(23));
+    let branched = Source::new("branched", branched(23));
     let scaled = |sets: &[&str]| line(embedded::scaled(), sets);
     for (name, line) in [
         ("embedded", line(embedded::example(), &[])?),

@@ -10,7 +10,7 @@
 //! let answer = ask(&loaded.line, &Question::Static, &Silent)?;
 //! let Answer::Static(statics) = &answer else { unreachable!("static answers static") };
 //! let capacity = statics.torque_capacity["half-shaft"];
-//! assert!((capacity.unwrap() - 7814.175).abs() < 1e-3); // N·m
+//! assert!(capacity.is_some_and(|torque| (torque - 7814.175).abs() < 1e-3)); // N·m
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -6,13 +6,12 @@ use std::path::{Path, PathBuf};
 use crate::parquet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_present::figure::svg::SvgOptions;
-use halfshaft_present::figure::{Figure, png, svg};
-use halfshaft_present::sketch::sketch;
-use halfshaft_present::{figures, html};
+use halfshaft_present::figure::{Figure, FigureError, png, svg};
+use halfshaft_present::{figures, html, sketch};
 use halfshaft_results::io::{
     WriteError, comparison_csv, comparison_markdown, csv, write_atomically,
 };
-use halfshaft_results::{Answer, StudyResult};
+use halfshaft_results::{Answer, CheckResult, StudyResult};
 
 /// A form that an answer can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -182,7 +181,7 @@ impl Writer<'_> {
             |what| OutputError::Nothing { analysis: answer.header().analysis.clone(), what };
         match format {
             Format::Json => {
-                self.stream(path, |file| Ok(halfshaft_results::io::write_json(answer, file)?))?;
+                self.stream(path, |file| halfshaft_results::io::write_json(answer, file))?;
             }
             Format::Csv => {
                 let text = match answer {
@@ -215,8 +214,8 @@ impl Writer<'_> {
         path: &Path,
         format: Format,
     ) -> Result<Vec<PathBuf>, OutputError> {
-        if let (Answer::Check(check), Format::Svg) = (answer, format) {
-            self.text(path, &sketch(check))?;
+        if let Answer::Check(check) = answer {
+            self.sketch(check, path, format)?;
             return Ok(vec![path.to_path_buf()]);
         }
         let figures = figures_of(answer);
@@ -237,8 +236,24 @@ impl Writer<'_> {
         if format == Format::Svg {
             return self.text(path, &svg::render(figure, &SvgOptions::default()));
         }
-        let bytes = png::render(figure, png::DEFAULT_SCALE).map_err(|error| {
-            OutputError::Picture { path: path.to_path_buf(), reason: error.to_string() }
+        self.pixels(path, png::render(figure, png::DEFAULT_SCALE))
+    }
+
+    fn sketch(&self, check: &CheckResult, path: &Path, format: Format) -> Result<(), OutputError> {
+        if format == Format::Svg {
+            return self.text(path, &sketch::sketch(check));
+        }
+        self.pixels(path, sketch::picture(check, png::DEFAULT_SCALE))
+    }
+
+    fn pixels(
+        &self,
+        path: &Path,
+        picture: Result<Vec<u8>, FigureError>,
+    ) -> Result<(), OutputError> {
+        let bytes = picture.map_err(|error| {
+            let reason = error.to_string();
+            OutputError::Picture { path: path.to_path_buf(), reason }
         })?;
         self.stream(path, |file| file.write_all(&bytes))
     }
@@ -259,9 +274,10 @@ impl Writer<'_> {
         if parquet::writer().is_some() && !answer.tables().is_empty() {
             written.extend(self.form(answer, &file("parquet"), Format::Parquet)?);
         }
-        if let Answer::Check(check) = answer {
-            self.text(&file("svg"), &sketch(check))?;
-            written.push(file("svg"));
+        if matches!(answer, Answer::Check(_)) {
+            for (ending, format) in [("svg", Format::Svg), ("png", Format::Png)] {
+                written.extend(self.pictures(answer, &file(ending), format)?);
+            }
         }
         for figure in figures_of(answer) {
             for (ending, format) in [("svg", Format::Svg), ("png", Format::Png)] {

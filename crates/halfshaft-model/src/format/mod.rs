@@ -4,6 +4,7 @@
 //! of a line with all errors at once, [`json_schema`] and [`reference_page`] are made from
 //! the same list.
 
+mod checked;
 mod limits;
 mod model_file;
 mod reader;
@@ -11,9 +12,10 @@ mod reference;
 mod schema;
 mod spec;
 
+pub(crate) use checked::{Checked, CheckedTable};
 pub use limits::{FileError, LARGEST_FILE, read_file};
 pub use model_file::{MODEL, SetFlag, read_model};
-pub(crate) use reader::{Checked, CheckedTable, read_document};
+pub(crate) use reader::read_document;
 pub use reference::reference_page;
 pub use schema::json_schema;
 pub use spec::{KeySpec, TableSpec, ValueSpec};

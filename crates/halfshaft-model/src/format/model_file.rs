@@ -3,7 +3,8 @@
 use crate::diagnostic::{Diagnostic, Diagnostics, Source, did_you_mean};
 use crate::driveline::{Driveline, Places, validate};
 use crate::elements::{GEAR, Gear, INERTIA, Inertia, PULSE, Pulse, SHAFT, Shaft, TORQUE, Torque};
-use crate::format::reader::{CheckedTable, read_document};
+use crate::format::checked::CheckedTable;
+use crate::format::reader::read_document;
 use crate::format::spec::{KeySpec, TableSpec, ValueSpec};
 use crate::parameter::{self, AddressError};
 use crate::range::parse_flag_quantity;

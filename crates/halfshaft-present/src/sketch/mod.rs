@@ -12,8 +12,8 @@
 
 use halfshaft_results::CheckResult;
 
-use crate::figure::SvgOptions;
 use crate::figure::svg::{self, Head};
+use crate::figure::{FigureError, SvgOptions, png};
 use crate::words::plain;
 use drawing::Drawing;
 
@@ -73,6 +73,14 @@ pub(crate) const LEGEND: &str = "Plates are inertias, taller for larger ones (by
 #[must_use]
 pub fn sketch(check: &CheckResult) -> String {
     write(check, &SvgOptions::default())
+}
+
+/// The drawing as a PNG picture; a scale of 1 gives 96 pixels per inch.
+///
+/// # Errors
+/// [`FigureError`] where the picture has no pixel or more than fit in memory.
+pub fn picture(check: &CheckResult, scale: f64) -> Result<Vec<u8>, FigureError> {
+    png::draw(&Drawing::new(check).finish(), scale)
 }
 
 /// The drawing for a page.

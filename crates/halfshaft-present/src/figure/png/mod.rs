@@ -28,9 +28,13 @@ const MOST_PIXELS: f64 = 1.2e8;
 ///
 /// If the scale gives no pixel, or more than fit in memory.
 pub fn render(figure: &Figure, scale: f64) -> Result<Vec<u8>, FigureError> {
-    let scene = compose(figure);
+    draw(&compose(figure), scale)
+}
+
+/// Draws a scene, see [`render`].
+pub(crate) fn draw(scene: &Scene, scale: f64) -> Result<Vec<u8>, FigureError> {
     let factor = scale * PIXELS_PER_POINT;
-    let mut canvas = Canvas::new(&scene, factor)?;
+    let mut canvas = Canvas::new(scene, factor)?;
     for primitive in &scene.primitives {
         match &primitive.shape {
             Shape::Path(path) => canvas.path(path),
