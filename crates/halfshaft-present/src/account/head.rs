@@ -1,8 +1,9 @@
 //! What stands above and below every account.
 
 use halfshaft_results::{Answer, Header, Reason, Termination};
+use serde_json::Value;
 
-use crate::words::plain;
+use crate::words::{number, plain, quantity};
 
 /// What an analysis is called, for headings.
 pub(crate) fn title(analysis: &str) -> String {
@@ -61,16 +62,42 @@ pub(crate) fn provenance(header: &Header) -> String {
 /// The settings in the form "name = value", those that were given or have a value.
 pub(crate) fn settings(header: &Header) -> Vec<String> {
     let Some(settings) = header.settings.as_object() else { return Vec::new() };
-    let shown = |(name, value): (&String, &serde_json::Value)| {
-        let value = match value {
-            serde_json::Value::Null => return None,
-            serde_json::Value::String(text) => text.clone(),
-            serde_json::Value::Array(list) if list.is_empty() => return None,
-            other => other.to_string(),
-        };
+    let told = |(name, value): (&String, &Value)| {
+        let value = setting(name, value)?;
         Some(format!("{} = {}", plain(&name.replace('_', " ")), plain(&value)))
     };
-    settings.iter().filter_map(shown).collect()
+    settings.iter().filter_map(told).collect()
+}
+
+/// One setting as the command line would take it; `None` where it has no value.
+fn setting(name: &str, value: &Value) -> Option<String> {
+    let unit = match name {
+        "duration" | "step" | "record" => "s",
+        "frequency" => "rad/s",
+        _ => "1",
+    };
+    Some(match value {
+        Value::Null => return None,
+        Value::Array(list) if list.is_empty() => return None,
+        Value::String(text) => text.clone(),
+        Value::Number(number) => quantity(number.as_f64()?, 6, unit),
+        Value::Array(list) => match list.as_slice() {
+            [Value::Number(from), Value::Number(to)] => {
+                format!("{}..{}", number(from.as_f64()?, 6), quantity(to.as_f64()?, 6, unit))
+            }
+            _ => list.iter().filter_map(|one| setting(name, one)).collect::<Vec<_>>().join(", "),
+        },
+        Value::Object(parts) => parts
+            .iter()
+            .filter_map(|(part, value)| Some((part, setting(part, value)?)))
+            .map(|(part, value)| match part.as_str() {
+                "address" | "channel" | "owner" | "quantity" | "value" => value,
+                other => format!("{other} {value}"),
+            })
+            .collect::<Vec<_>>()
+            .join(" "),
+        Value::Bool(truth) => if *truth { "yes" } else { "no" }.to_owned(),
+    })
 }
 
 #[cfg(test)]

@@ -101,7 +101,7 @@ fn marks(states: &[State]) -> Vec<Points> {
         states.iter().filter(|state| state.2 == wanted).map(|state| (state.0, state.1)).unzip()
     };
     let (stable, unstable) = (of(true), of(false));
-    let label = |x: &f64| format!("stable at {} rad", number(*x, 4));
+    let label = |x: &f64| format!("{} rad", number(*x, 4));
     let labels = stable.0.iter().map(label).collect();
     let mut marks = Vec::new();
     if !stable.0.is_empty() {
@@ -137,10 +137,10 @@ fn demands(result: &StaticResult, shaft: &str) -> Vec<Demand> {
     let of = |gear: &halfshaft_results::GearState| {
         let torque = *gear.required_torque.get(shaft)?;
         let of = if several { format!("{} ", name(&gear.gear)) } else { "gear ".to_owned() };
-        let asks = number(torque, 5);
-        let label = format!("{of}{} asks {asks} N·m", gear_name(gear));
-        let gives_way = gear.overloaded.as_deref() == Some(shaft);
-        Some(Demand { torque, label, holds: gear.exists || !gives_way })
+        let holds = gear.exists || gear.overloaded.as_deref() != Some(shaft);
+        // Gears that hold crowd about the states of rest; the table has their numbers.
+        let asks = if holds { String::new() } else { format!(" asks {} N·m", number(torque, 5)) };
+        Some(Demand { torque, label: format!("{of}{}{asks}", gear_name(gear)), holds })
     };
     result.gears.iter().filter_map(of).collect()
 }

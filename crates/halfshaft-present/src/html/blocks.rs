@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::figure::{Figures, figure};
 use crate::account::{Account, Block, Grid, GridColumn, Tone};
+use crate::words::bound;
 
 /// All blocks in their order; figures go where the account has a place for them.
 pub(super) fn account(account: &Account, figures: &mut Figures) -> Markup {
@@ -16,8 +17,8 @@ pub(super) fn account(account: &Account, figures: &mut Figures) -> Markup {
 pub(super) fn one(block: &Block, figures: &mut Figures) -> Markup {
     match block {
         Block::Heading(text) => html! { h3 { (text) } },
-        Block::Text(text) => html! { p { (text) } },
-        Block::Note(text) => html! { p.note { (text) } },
+        Block::Text(text) => html! { p { (bound(text)) } },
+        Block::Note(text) => html! { p.note { (bound(text)) } },
         Block::List(items) => list(items),
         // A chain of names is what the sketch shows.
         Block::Lines(_) => html! {},
@@ -30,7 +31,7 @@ pub(super) fn one(block: &Block, figures: &mut Figures) -> Markup {
 pub(super) fn list<T: AsRef<str>>(items: &[T]) -> Markup {
     html! {
         @if !items.is_empty() {
-            ul { @for item in items { li { (item.as_ref()) } } }
+            ul { @for item in items { li { (bound(item.as_ref())) } } }
         }
     }
 }
@@ -40,7 +41,7 @@ pub(super) fn grid(grid: &Grid) -> Markup {
     html! {
         @if !grid.title.is_empty() { p.title { (grid.title) } }
         div.table tabindex="0" role="region" aria-label=(grid.title) {
-            table {
+            table class=(if grid.rows() <= BRIEF { "brief" } else { "" }) {
                 thead { tr { @for column in &grid.columns { (head(column)) } } }
                 tbody {
                     @for row in 0..grid.rows() {
@@ -76,6 +77,9 @@ fn kind(column: &GridColumn) -> &'static str {
         _ => "words",
     }
 }
+
+/// Tables up to this many rows stay on one sheet of paper.
+const BRIEF: usize = 15;
 
 /// Words up to this length stay in one line.
 const SHORT: usize = 22;

@@ -4,6 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::figure::scene::{Level, Rich};
 use crate::figure::{Figure, SvgOptions, plotly, svg};
+use crate::words::bound;
 
 /// The figures of a page, to be put where the account wants them.
 pub(super) struct Figures {
@@ -47,7 +48,7 @@ pub(super) fn figure(figure: &Figure) -> Markup {
             }
             script type="application/json" { (PreEscaped(plotly::script_json(&value))) }
             @if !figure.caption.trim().is_empty() {
-                figcaption { (rich(&Rich::parse(&figure.caption))) }
+                figcaption { (rich(&Rich::parse(&bound(&figure.caption)))) }
             }
         }
     }

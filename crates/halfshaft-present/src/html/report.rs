@@ -10,7 +10,7 @@ use super::shell::Sheet;
 use super::single::{basis, warnings};
 use crate::account::{Account, check, folds, head, modes, resonance, shock, statics};
 use crate::findings::{self, COMFORTABLE, Finding, Standing};
-use crate::words::{capital, number, plain};
+use crate::words::{bound, capital, number, plain};
 use crate::{figures, sketch};
 
 /// The page of a report.
@@ -77,7 +77,7 @@ fn one(finding: &Finding) -> Markup {
     html! {
         li class=(class) {
             span.mark { span.sign aria-hidden="true" { (sign) } " " (finding.standing.word()) }
-            div { strong { (finding.topic) ". " } (finding.text) }
+            div { strong { (finding.topic) ". " } (bound(&finding.text)) }
         }
     }
 }

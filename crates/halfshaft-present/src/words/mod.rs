@@ -3,7 +3,7 @@
 pub(crate) use column::{Quantity, column_label, column_words};
 pub(crate) use name::{capital, counted, list, plain, short};
 pub(crate) use number::{MISSING, common_decimals, decimals, number, percent, places, times};
-pub(crate) use units::{angle, frequency_words, quantity, unit};
+pub(crate) use units::{angle, bound, frequency_words, quantity, unit};
 
 mod column;
 mod name;

@@ -32,9 +32,41 @@ pub(crate) fn frequency_words(rad_per_s: f64) -> String {
     )
 }
 
+/// A text whose numbers do not part from their units at the end of a line.
+pub(crate) fn bound(text: &str) -> String {
+    let mut bound = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(place) = rest.find(' ') {
+        let (before, after) = (&rest[..place], &rest[place + 1..]);
+        bound.push_str(before);
+        let number = before.ends_with(|c: char| c.is_ascii_digit() || "⁰¹²³⁴⁵⁶⁷⁸⁹".contains(c));
+        bound.push(if number && begins_with_unit(after) { '\u{a0}' } else { ' ' });
+        rest = after;
+    }
+    bound + rest
+}
+
+fn begins_with_unit(text: &str) -> bool {
+    let word = text.split(|c: char| c.is_whitespace() || ",;:()".contains(c)).next();
+    let word = word.unwrap_or_default().trim_end_matches('.');
+    let known = ["%", "s", "ms", "rad", "Hz", "rpm", "J", "times", "1/s", "kg·m²"];
+    known.contains(&word) || ["N·m", "rad/", "kN·m"].iter().any(|start| word.starts_with(start))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{angle, frequency_words, quantity};
+    use super::{angle, bound, frequency_words, quantity};
+
+    /// Oracle: typesetting: a unit stays with its number, words stay apart.
+    #[test]
+    fn numbers_keep_their_units() {
+        assert_eq!(
+            bound("after 2 s (88 % of all), 3 springs"),
+            "after 2\u{a0}s (88\u{a0}% of all), 3 springs"
+        );
+        assert_eq!(bound("carries 7814 N·m. From 2 to 3"), "carries 7814\u{a0}N·m. From 2 to 3");
+        assert_eq!(bound("8.5×10⁻¹² rad/s² "), "8.5×10⁻¹²\u{a0}rad/s² ");
+    }
 
     /// Oracle: by hand: 1 rad is 57.2958 degrees; 2π rad/s is 1 Hz and 60 rpm.
     #[test]
