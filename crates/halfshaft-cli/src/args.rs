@@ -208,6 +208,9 @@ pub struct Shock {
     /// Which equation multiple scales solve: published, clamped or twist [default: published]
     #[arg(long, value_name = "EQUATION")]
     pub equation: Option<String>,
+    /// First order: leave the slow terms out of the velocity, as the paper's figures do
+    #[arg(long)]
+    pub printed_velocity: bool,
     /// Disturb by an initial value in place of the model's pulses (repeatable)
     #[arg(long, value_name = "CHANNEL=VALUE")]
     pub initial: Vec<String>,
@@ -381,6 +384,7 @@ impl Shock {
             method: self.method.clone(),
             order: self.order.clone(),
             equation: self.equation.clone(),
+            printed_velocity: self.printed_velocity,
             initial: self.initial.clone(),
             duration: self.duration.clone(),
             step: self.step.clone(),

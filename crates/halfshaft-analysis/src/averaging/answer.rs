@@ -44,12 +44,39 @@ pub(crate) fn solve(
         result.scaling.push(scaling(&equations, mode, label.clone()));
         say(&equations, mode, &mut result);
         if question.verify {
-            let points = verification::choose(&result.branches, mode);
-            let checked = verification::periodic(&equations, mode, &points, observer)?;
-            result.verification.extend(checked);
+            verify(&equations, mode, *window, &mut result, observer)?;
         }
     }
     Ok(result)
+}
+
+/// Holds responses of a mode against periodic orbits of the full equations.
+fn verify(
+    equations: &EquationsOfMotion,
+    mode: &ModeEquation,
+    window: (f64, f64),
+    result: &mut ResonanceResult,
+    observer: &dyn Observer,
+) -> Result<(), AnalysisError> {
+    let points = verification::choose(mode, window);
+    let Some(checked) = verification::periodic(equations, mode, &points, observer)? else {
+        result.header.warnings.push(
+            "not verified: the orders of the torques have no common period, so the full equations \
+             have no periodic motion"
+                .to_owned(),
+        );
+        return Ok(());
+    };
+    for missed in &checked.missed {
+        result.header.warnings.push(format!(
+            "no periodic motion of the full equations was found near the response of {:.4} rad \
+             predicted at {:.4} rad/s",
+            missed.rho(),
+            mode.frequency(missed.sigma)
+        ));
+    }
+    result.verification.extend(checked.points);
+    Ok(())
 }
 
 /// A mode under one order, with the range of Ω to show.

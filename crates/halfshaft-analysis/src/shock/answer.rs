@@ -13,7 +13,7 @@ use halfshaft_results::{
 use super::closed::ClosedMotion;
 use super::comparison;
 use super::full::{self, final_twists, has_pulse, shaft_metrics};
-use super::multiple_scales::Oscillator;
+use super::multiple_scales::{Expansion, Oscillator};
 use super::single::{self, SingleEquation};
 use crate::equilibrium::{self, RestState};
 use crate::error::AnalysisError;
@@ -244,7 +244,12 @@ impl ShockProblem<'_> {
         let single = single::reduce(&self.equations, &self.rest, question.equation)?;
         let (x, v) = self.single_start()?;
         self.check_disturbed(&single, x, v)?;
-        let closed = ClosedMotion::new(&single, question, (x, v), question.order, observer)?;
+        let expansion = match question.order {
+            1 if question.printed_velocity => Expansion::FirstAsPrinted,
+            1 => Expansion::First,
+            _ => Expansion::Second,
+        };
+        let closed = ClosedMotion::new(&single, question, (x, v), expansion, observer)?;
         let step = question.step.unwrap_or(question.duration / DEFAULT_PARTS);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
         let count = (question.duration / step * (1.0 + 1e-12) + 1e-9).floor() as u32;
@@ -253,6 +258,13 @@ impl ShockProblem<'_> {
         let columns = closed_columns(&closed, &times, &shaft);
         let mut header = self.header();
         header.assumptions.push(closed_sentence(&single, question.order, &closed));
+        if expansion == Expansion::FirstAsPrinted {
+            header.assumptions.push(
+                "the velocity leaves out its slow terms, as the paper prints it, so it is not quite \
+                 the derivative of the twist"
+                    .to_owned(),
+            );
+        }
         if single.higher.iter().any(|coefficient| *coefficient != 0.0) {
             header.warnings.push(
                 "the closed form leaves out the terms of the law beyond the cubic one".to_owned(),

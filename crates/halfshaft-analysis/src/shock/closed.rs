@@ -7,7 +7,7 @@ use halfshaft_results::ShaftMetrics;
 
 use super::full::{self, disturbance_end, has_pulse, has_ramp};
 use super::metrics::{Response, between, metrics};
-use super::multiple_scales::MultipleScales;
+use super::multiple_scales::{Expansion, MultipleScales};
 use super::single::SingleEquation;
 use crate::error::AnalysisError;
 use crate::time_response::{TracePoint, TurningPoint};
@@ -34,12 +34,12 @@ struct Before {
 const POINTS_PER_PERIOD: f64 = 128.0;
 
 impl<'s> ClosedMotion<'s> {
-    /// The motion from `θ(0)`, `θ'(0)` as in `start` by multiple scales of the given order.
+    /// The motion from `θ(0)`, `θ'(0)` as in `start` by multiple scales.
     pub(crate) fn new(
         single: &'s SingleEquation,
         question: &ShockQuestion,
         start: (f64, f64),
-        order: u8,
+        expansion: Expansion,
         observer: &dyn Observer,
     ) -> Result<Self, AnalysisError> {
         let line = &single.surrogate;
@@ -69,7 +69,7 @@ impl<'s> ClosedMotion<'s> {
         }
         // An impulse at the very end changes the speed at once.
         v += line.excitation.impulses_at(from, 1)[0] / line.inertia[0];
-        let closed = MultipleScales::new(single.oscillator, order, x, v)?;
+        let closed = MultipleScales::new(single.oscillator, expansion, x, v)?;
         Ok(Self { single, closed, from, before })
     }
 

@@ -8,6 +8,7 @@ use super::answer::ShockProblem;
 use super::closed::ClosedMotion;
 use super::full::{self, final_twists, shaft_metrics};
 use super::metrics::between;
+use super::multiple_scales::Expansion;
 use super::single::{self, SingleEquation};
 use crate::equilibrium;
 use crate::error::AnalysisError;
@@ -120,8 +121,8 @@ fn accounts_of(
         accounts.push(integrated(single, question, start, observer)?);
         name
     };
-    for order in [1, 2] {
-        let Ok(closed) = ClosedMotion::new(single, question, start, order, observer) else {
+    for (order, expansion) in [(1, Expansion::First), (2, Expansion::Second)] {
+        let Ok(closed) = ClosedMotion::new(single, question, start, expansion, observer) else {
             continue;
         };
         accounts.push(Account {

@@ -34,11 +34,23 @@ pub(crate) struct Oscillator {
     pub(crate) mu: f64,
 }
 
+/// How much of the expansion is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Expansion {
+    /// Order 1.
+    First,
+    /// Order 1 with a velocity that holds amplitude and slow phase still, as the paper's figures
+    /// have it: `θ' = ω ∂θ/∂Θ`.
+    FirstAsPrinted,
+    /// Order 2.
+    Second,
+}
+
 /// The closed form for one set of initial values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MultipleScales {
     oscillator: Oscillator,
-    second: bool,
+    expansion: Expansion,
     /// Amplitude at time 0.
     r0: f64,
     /// Fast phase at time 0.
@@ -55,7 +67,7 @@ struct Term {
 
 impl Oscillator {
     /// Terms of the expansion up to the given order.
-    fn terms(&self, second: bool) -> Vec<Term> {
+    fn terms(&self, expansion: Expansion) -> Vec<Term> {
         let Self { omega, alpha, gamma, mu } = *self;
         let (w2, w3, w4) = (omega * omega, omega.powi(3), omega.powi(4));
         let cos = |factor, power, harmonic| Term { factor, power, harmonic, sine: false };
@@ -66,7 +78,7 @@ impl Oscillator {
             cos(-mu / (6.0 * w2), 2, 2.0),
             cos(mu / (2.0 * w2), 2, 0.0),
         ];
-        if second {
+        if expansion == Expansion::Second {
             terms.extend([
                 cos(gamma * gamma / (1024.0 * w4), 5, 5.0),
                 cos(-gamma * mu / (96.0 * w4), 4, 4.0),
@@ -82,11 +94,11 @@ impl Oscillator {
     }
 
     /// `(r', ψ')` at amplitude `r`.
-    fn slow(&self, r: f64, second: bool) -> (f64, f64) {
+    fn slow(&self, r: f64, expansion: Expansion) -> (f64, f64) {
         let Self { omega, alpha, gamma, mu } = *self;
         let mut growth = -alpha / 2.0 * r;
         let mut drift = 3.0 * gamma * r * r / (8.0 * omega);
-        if second {
+        if expansion == Expansion::Second {
             let w3 = omega.powi(3);
             growth += 3.0 * gamma * alpha / (16.0 * omega * omega) * r.powi(3);
             drift += -alpha * alpha / (8.0 * omega)
@@ -97,10 +109,13 @@ impl Oscillator {
     }
 
     /// `(θ, θ')` at amplitude `r` and fast phase `phase`.
-    fn motion(&self, r: f64, phase: f64, second: bool) -> (f64, f64) {
-        let (growth, drift) = self.slow(r, second);
+    fn motion(&self, r: f64, phase: f64, expansion: Expansion) -> (f64, f64) {
+        let (growth, drift) = match expansion {
+            Expansion::FirstAsPrinted => (0.0, 0.0),
+            _ => self.slow(r, expansion),
+        };
         let turning = self.omega + drift;
-        self.terms(second).iter().fold((0.0, 0.0), |(x, v), term| {
+        self.terms(expansion).iter().fold((0.0, 0.0), |(x, v), term| {
             let Term { factor, power, harmonic, sine } = *term;
             let (s, c) = (harmonic * phase).sin_cos();
             let (wave, slope) = if sine { (s, c) } else { (c, -s) };
@@ -112,28 +127,27 @@ impl Oscillator {
 }
 
 impl MultipleScales {
-    /// The closed form of order 1 or 2 through `θ(0) = x0`, `θ'(0) = v0`.
+    /// The closed form through `θ(0) = x0`, `θ'(0) = v0`.
     ///
     /// # Errors
     /// Where no amplitude and phase meet the initial values: the motion is too large for the
     /// expansion.
     pub(crate) fn new(
         oscillator: Oscillator,
-        order: u8,
+        expansion: Expansion,
         x0: f64,
         v0: f64,
     ) -> Result<Self, AnalysisError> {
-        let second = order >= 2;
         let omega = oscillator.omega;
         // Unknowns r cos Θ and r sin Θ: unlike r and Θ they are regular at rest.
         let start = [x0, -v0 / omega];
         let size = start[0].hypot(start[1]);
         if size == 0.0 {
-            return Ok(Self { oscillator, second, r0: 0.0, phase0: 0.0 });
+            return Ok(Self { oscillator, expansion, r0: 0.0, phase0: 0.0 });
         }
         let miss = |unknowns: &[f64], out: &mut [f64]| {
             let (r, phase) = (unknowns[0].hypot(unknowns[1]), unknowns[1].atan2(unknowns[0]));
-            let (x, v) = oscillator.motion(r, phase, second);
+            let (x, v) = oscillator.motion(r, phase, expansion);
             out[0] = x - x0;
             out[1] = (v - v0) / omega;
         };
@@ -171,7 +185,7 @@ impl MultipleScales {
             });
         }
         let [a, b] = [solution.unknowns[0], solution.unknowns[1]];
-        Ok(Self { oscillator, second, r0: a.hypot(b), phase0: b.atan2(a) })
+        Ok(Self { oscillator, expansion, r0: a.hypot(b), phase0: b.atan2(a) })
     }
 
     /// Amplitude and fast phase at time `t`.
@@ -182,14 +196,15 @@ impl MultipleScales {
         let decayed = -(-alpha * t).exp_m1();
         let time = if alpha == 0.0 { t } else { decayed / alpha };
         // The amplitude equation of order 2 is Bernoulli's: u = r², u' = -α u + 3 γ α u²/(8 ω²).
-        let bend = if self.second { 3.0 * gamma / (8.0 * omega * omega) } else { 0.0 };
+        let second = self.expansion == Expansion::Second;
+        let bend = if second { 3.0 * gamma / (8.0 * omega * omega) } else { 0.0 };
         let z = bend * u0 * decayed;
         let u = u0 * (1.0 - decayed) / (1.0 - z);
         let (log, rest) = logarithms(z);
         let integral_u = u0 * time * log;
         let integral_u2 = u0 * u0 * time * (1.0 / (1.0 - z) - decayed * rest);
         let mut psi = 3.0 * gamma / (8.0 * omega) * integral_u;
-        if self.second {
+        if second {
             let w3 = omega.powi(3);
             psi += -alpha * alpha / (8.0 * omega) * t
                 - 5.0 * mu * mu / (12.0 * w3) * integral_u
@@ -201,7 +216,7 @@ impl MultipleScales {
     /// `(θ, θ')` at time `t`, rad and rad/s.
     pub(crate) fn at(&self, t: f64) -> (f64, f64) {
         let (r, phase) = self.slow_state(t);
-        self.oscillator.motion(r, phase, self.second)
+        self.oscillator.motion(r, phase, self.expansion)
     }
 }
 
@@ -240,7 +255,7 @@ mod tests {
     }
 
     /// Largest error over a few times when the small terms are scaled by `epsilon`.
-    fn error(order: u8, epsilon: f64) -> f64 {
+    fn error(order: Expansion, epsilon: f64) -> f64 {
         let oscillator = Oscillator {
             omega: 2.0,
             alpha: 0.5 * epsilon,
@@ -260,9 +275,9 @@ mod tests {
     // one, against tight integration.
     #[test]
     fn the_error_falls_with_the_order_of_the_expansion() {
-        for (order, expected) in [(1_u8, 2.0), (2, 3.0)] {
+        for (order, expected) in [(Expansion::First, 2.0), (Expansion::Second, 3.0)] {
             let rate = (error(order, 0.04) / error(order, 0.02)).log2();
-            assert!((rate - expected).abs() < 0.15, "order {order}: rate {rate}");
+            assert!((rate - expected).abs() < 0.15, "{order:?}: rate {rate}");
         }
     }
 
@@ -270,10 +285,10 @@ mod tests {
     #[test]
     fn the_whole_expansion_meets_the_initial_values() {
         let oscillator = Oscillator { omega: 13.0, alpha: 2.2, gamma: -15.0, mu: -38.0 };
-        for order in [1, 2] {
+        for order in [Expansion::First, Expansion::Second] {
             let closed = MultipleScales::new(oscillator, order, 0.9, -3.0).expect("fits");
             let (x, v) = closed.at(0.0);
-            assert!((x - 0.9).abs() < 1e-12 && (v + 3.0).abs() < 1e-10, "order {order}: {x} {v}");
+            assert!((x - 0.9).abs() < 1e-12 && (v + 3.0).abs() < 1e-10, "{order:?}: {x} {v}");
         }
     }
 
@@ -281,12 +296,12 @@ mod tests {
     #[test]
     fn the_velocity_is_the_derivative_of_the_motion() {
         let oscillator = Oscillator { omega: 13.0, alpha: 2.2, gamma: 15.0, mu: 30.0 };
-        for order in [1, 2] {
+        for order in [Expansion::First, Expansion::Second] {
             let closed = MultipleScales::new(oscillator, order, 0.5, 2.0).expect("fits");
             for t in [0.05, 0.4, 1.7] {
                 let h = 1e-6;
                 let slope = (closed.at(t + h).0 - closed.at(t - h).0) / (2.0 * h);
-                assert!((slope - closed.at(t).1).abs() < 1e-6, "order {order} at {t}");
+                assert!((slope - closed.at(t).1).abs() < 1e-6, "{order:?} at {t}");
             }
         }
     }
@@ -296,7 +311,7 @@ mod tests {
     #[test]
     fn without_nonlinearity_order_two_has_the_damped_frequency() {
         let oscillator = Oscillator { omega: 10.0, alpha: 0.4, gamma: 0.0, mu: 0.0 };
-        let closed = MultipleScales::new(oscillator, 2, 1.0, 0.0).expect("fits");
+        let closed = MultipleScales::new(oscillator, Expansion::Second, 1.0, 0.0).expect("fits");
         let (x, _) = closed.at(3.0);
         let (exact, _) = integrated(oscillator, 1.0, 0.0, 3.0);
         assert!((x - exact).abs() < 1e-5, "{x} {exact}");

@@ -5,62 +5,69 @@ use halfshaft_numerics::fourier;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_numerics::ode::System;
 use halfshaft_numerics::ode::periodic::{PeriodicSettings, find_orbit};
-use halfshaft_results::{Branch, VerifiedPoint};
+use halfshaft_results::VerifiedPoint;
 
 use super::elastic_motion::ElasticMotion;
 use crate::averaging::{ModeEquation, Response, phase_lag};
 use crate::error::{AnalysisError, Doing};
 
-/// Points that are checked on a curve.
-const POINTS: usize = 9;
-/// Points nearer to a fold than this part of the frequency are not chosen: there the prediction
-/// may have no orbit to stand for.
+/// Speeds spread over the range at which responses are checked.
+const SPREAD: u32 = 8;
+/// Speeds nearer to a fold than this part of the range are not chosen: there the prediction may
+/// have no orbit to stand for.
 const FOLD_MARGIN: f64 = 2e-3;
 
-/// Chooses responses along the branches of a mode, spread evenly, folds avoided.
-pub(crate) fn choose(branches: &[Branch], mode: &ModeEquation) -> Vec<Response> {
+/// Chooses responses of a mode within a range of speeds: *all* of them at speeds spread over the
+/// range, at the peak, and midway between neighbouring folds, where responses coexist.
+pub(crate) fn choose(mode: &ModeEquation, (from, to): (f64, f64)) -> Vec<Response> {
     let flow = mode.slow_flow();
-    let folds: Vec<f64> = flow.folds().iter().map(|fold| mode.frequency(fold.sigma)).collect();
-    let mut all: Vec<Response> = Vec::new();
-    for branch in branches {
-        let rows = branch.values("sigma").iter().zip(branch.values("rho"));
-        for (frequency, (sigma, rho)) in branch.values("frequency").iter().zip(rows) {
-            let near = |fold: &f64| (frequency / fold - 1.0).abs() < FOLD_MARGIN;
-            // Branches of other orders have their own detuning for the same speed.
-            let own = (mode.sigma(*frequency) - sigma).abs() <= 1e-9 * mode.omega;
-            if own && !folds.iter().any(near) {
-                let z = rho * rho;
-                all.push(Response { sigma: *sigma, z, beyond: sigma - flow.bend(z) });
-            }
-        }
-    }
-    if all.is_empty() {
-        return all;
-    }
-    let last = all.len() - 1;
-    (0..POINTS).map(|k| all[k * last / (POINTS - 1)]).collect()
+    let (low, high) = (mode.sigma(from), mode.sigma(to));
+    let mut folds: Vec<f64> = flow.folds().iter().map(|fold| fold.sigma).collect();
+    folds.sort_by(f64::total_cmp);
+    let margin = FOLD_MARGIN * (high - low);
+    let clear = |sigma: &f64| folds.iter().all(|fold| (sigma - fold).abs() > margin);
+    let spread = (0..SPREAD).map(|k| low + (high - low) * f64::from(k) / f64::from(SPREAD - 1));
+    let mut sigmas: Vec<f64> = spread.filter(clear).collect();
+    sigmas.extend(folds.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])));
+    sigmas.extend(flow.peak().map(|peak| peak.sigma));
+    sigmas.retain(|sigma| (low..=high).contains(sigma));
+    sigmas.sort_by(f64::total_cmp);
+    sigmas.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * (high - low));
+    sigmas.into_iter().flat_map(|sigma| flow.responses(sigma)).collect()
 }
 
 /// Samples of an orbit for its harmonics.
 const SAMPLES: usize = 256;
 
-/// Checks predicted responses by periodic orbits of the full line. Those for which no orbit is
-/// found near the prediction are left out.
+/// What the check of predicted responses gave.
+#[derive(Debug, Default)]
+pub(crate) struct Verified {
+    /// Responses with the orbit found from them.
+    pub(crate) points: Vec<VerifiedPoint>,
+    /// Responses near which no orbit was found.
+    pub(crate) missed: Vec<Response>,
+}
+
+/// Checks predicted responses by periodic orbits of the full line; `None` where the orders of the
+/// torques have no common period.
 pub(crate) fn periodic(
     equations: &EquationsOfMotion,
     mode: &ModeEquation,
     points: &[Response],
     observer: &dyn Observer,
-) -> Result<Vec<VerifiedPoint>, AnalysisError> {
-    let Some(base) = common_order(&equations.excitation.orders()) else { return Ok(Vec::new()) };
-    let mut verified = Vec::new();
+) -> Result<Option<Verified>, AnalysisError> {
+    let Some(base) = common_order(&equations.excitation.orders()) else { return Ok(None) };
+    let mut verified = Verified::default();
     for point in points {
         if observer.cancelled() {
             break;
         }
-        verified.extend(check(equations, mode, point, base)?);
+        match check(equations, mode, point, base)? {
+            Some(found) => verified.points.push(found),
+            None => verified.missed.push(*point),
+        }
     }
-    Ok(verified)
+    Ok(Some(verified))
 }
 
 /// Largest order that divides all others, so that its period is common to all.

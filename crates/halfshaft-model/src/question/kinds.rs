@@ -151,6 +151,9 @@ pub struct ShockQuestion {
     pub order: u8,
     /// Which equation multiple scales solve.
     pub equation: ShockEquation,
+    /// Whether the velocity of the first order leaves out its slow terms, as the printed figures
+    /// of the paper do.
+    pub printed_velocity: bool,
     /// Disturbed initial values; without any the pulses of the model disturb.
     pub initial: Vec<InitialValue>,
     /// End of the time history, s.
@@ -169,6 +172,7 @@ impl Default for ShockQuestion {
             method: ShockMethod::Full,
             order: 2,
             equation: ShockEquation::Published,
+            printed_velocity: false,
             initial: Vec::new(),
             duration: 5.0,
             step: None,

@@ -33,6 +33,8 @@ pub struct QuestionText {
     pub order: Option<String>,
     /// `--equation`.
     pub equation: Option<String>,
+    /// `--printed-velocity`.
+    pub printed_velocity: bool,
     /// `--compare`.
     pub compare: bool,
     /// `--mode`.
@@ -161,12 +163,18 @@ impl Reader<'_> {
             ("twist", ShockEquation::Twist),
         ];
         let order = self.count("order", text.order.as_deref(), 1, 2);
+        if text.printed_velocity && order != Some(1) {
+            let message = "the paper prints a velocity without slow terms at first order only";
+            let hint = "add --order 1";
+            self.errors.push(OptionError::new("printed-velocity", "", message, hint));
+        }
         ShockQuestion {
             method: self.choice("method", text.method.as_deref(), &methods).unwrap_or_default(),
             order: if order == Some(1) { 1 } else { default.order },
             equation: self
                 .choice("equation", text.equation.as_deref(), &equations)
                 .unwrap_or_default(),
+            printed_velocity: text.printed_velocity,
             initial: self.initial(),
             duration,
             step: self.step(duration),

@@ -33,6 +33,7 @@ pub static QUESTION: TableSpec = TableSpec {
         option("points", "As --points."),
         option("parameter", "As --parameter."),
         option("equilibrium", "As --equilibrium."),
+        KeySpec::new("printed-velocity", ValueSpec::Flag, "As --printed-velocity."),
         KeySpec::new("verify", ValueSpec::Flag, "As --verify."),
         KeySpec::new("compare", ValueSpec::Flag, "As --compare."),
         KeySpec::new(

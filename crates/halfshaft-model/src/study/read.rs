@@ -296,6 +296,7 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         method: option("method"),
         order: option("order"),
         equation: option("equation"),
+        printed_velocity: table.flag("printed-velocity"),
         compare: table.flag("compare"),
         mode: option("mode"),
         points: option("points"),

@@ -165,10 +165,10 @@ fn rpm(frequency: Option<f64>) -> Option<f64> {
     frequency.map(|frequency| frequency * 30.0 / std::f64::consts::PI)
 }
 
-/// The check nearest to the largest response, and the check with the largest difference.
+/// The check of the largest predicted response, and the check with the largest difference.
 pub(crate) fn best_and_worst(points: &[VerifiedPoint]) -> Option<(&VerifiedPoint, &VerifiedPoint)> {
     let finite = || points.iter().filter(|point| point.relative_difference.is_finite());
-    let top = finite().max_by(|a, b| a.integrated.total_cmp(&b.integrated))?;
+    let top = finite().max_by(|a, b| a.predicted.total_cmp(&b.predicted))?;
     let worst = finite()
         .max_by(|a, b| a.relative_difference.abs().total_cmp(&b.relative_difference.abs()))?;
     Some((top, worst))
@@ -185,9 +185,9 @@ pub(crate) fn verdict(result: &ResonanceResult) -> String {
         format!("stability disagrees at {}", counted(disagree, "point", "points"))
     };
     format!(
-        "Held against integration of the full equations at {}: at the largest response checked \
-         ({}) the closed form differs by {}; the largest difference is {} at {}; {stability}.",
-        counted(points.len(), "speed", "speeds"),
+        "Held against integration of the full equations at {}: at the largest of them ({}) the \
+         closed form differs by {}; the largest difference is {} at {}; {stability}.",
+        counted(points.len(), "response", "responses"),
         quantity(top.frequency, 5, "rad/s"),
         percent(top.relative_difference.abs(), 2),
         percent(worst.relative_difference.abs(), 2),

@@ -26,8 +26,8 @@ fn closed_form(report: &ReportResult) -> Option<Finding> {
     let apart = (worst.frequency / top.frequency - 1.0).abs();
     let off = if apart > 0.15 { ", off the resonance, where averaging is rough" } else { "" };
     let text = format!(
-        "At the largest response checked the closed form agrees with integration of the full \
-         equations to {} digits ({}). The largest difference in the range is {}, at {}{off}.",
+        "At its largest response the closed form agrees with integration of the full equations \
+         to {} digits ({}). The largest difference in the range is {}, at {}{off}.",
         number(digits.clamp(0.0, 16.0), 2),
         percent(difference, 2),
         percent(worst.relative_difference.abs(), 2),
