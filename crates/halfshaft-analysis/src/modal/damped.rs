@@ -122,7 +122,8 @@ fn coupled(
     };
     Ok(DampedPairs {
         elastic: slots[..n].iter().map(pair).collect(),
-        rigid: has_rigid.then(|| [Complex::default(), pair(&slots[n])[0]]),
+        rigid: has_rigid
+            .then(|| [Complex::default(), slots[n].first().copied().unwrap_or_default()]),
     })
 }
 
