@@ -277,6 +277,29 @@ fn verification_holds_the_full_equations_against_the_closed_form() {
     assert_close(point.largest_multiplier, (-0.0951 * period / 2.0).exp(), 1e-6);
 }
 
+// Source: the full equations; where folds lie too close for an even spread to fall between them,
+// the three coexisting responses are still held against their own three orbits.
+#[test]
+fn verification_reaches_every_coexisting_response() {
+    let text = QuestionText { verify: true, ..Default::default() };
+    let result = resonance(&oscillator(&[]), &text);
+    let (low, high) = (25.8973, 25.9398);
+    let between: Vec<&VerifiedPoint> = result
+        .verification
+        .iter()
+        .filter(|point| low < point.frequency && point.frequency < high)
+        .collect();
+    let stable = between.iter().filter(|point| point.integrated_stable).count();
+    assert!(between.len() >= 3 && stable == 2 * (between.len() - stable), "{between:?}");
+    for point in &between {
+        assert_eq!(point.predicted_stable, point.integrated_stable, "{point:?}");
+        assert!(point.relative_difference.abs() < 0.01, "{point:?}");
+    }
+    let peak = result.peaks[0]["frequency"];
+    assert!(result.verification.iter().any(|point| (point.frequency - peak).abs() < 1e-9));
+    assert!(result.header.warnings.is_empty(), "{:?}", result.header.warnings);
+}
+
 // Source: linear theory: without nonlinearity near resonance the averaged amplitude tends to the
 // exact one, |F|/sqrt((ω1² - ω²)² + β² ω²), with an error of the relative detuning.
 #[test]
