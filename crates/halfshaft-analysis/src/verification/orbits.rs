@@ -16,6 +16,8 @@ const SPREAD: u32 = 8;
 /// Speeds nearer to a fold than this part of the range are not chosen: there the prediction may
 /// have no orbit to stand for.
 const FOLD_MARGIN: f64 = 2e-3;
+/// Speeds nearer than this part of the range to a telling one would say the same again.
+const NEIGHBOUR: f64 = 0.02;
 
 /// Chooses responses of a mode within a range of speeds: *all* of them at speeds spread over the
 /// range, at the peak, and midway between neighbouring folds, where responses coexist.
@@ -24,15 +26,19 @@ pub(crate) fn choose(mode: &ModeEquation, (from, to): (f64, f64)) -> Vec<Respons
     let (low, high) = (mode.sigma(from), mode.sigma(to));
     let mut folds: Vec<f64> = flow.folds().iter().map(|fold| fold.sigma).collect();
     folds.sort_by(f64::total_cmp);
-    let margin = FOLD_MARGIN * (high - low);
-    let clear = |sigma: &f64| folds.iter().all(|fold| (sigma - fold).abs() > margin);
+    let mut telling: Vec<f64> =
+        folds.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
+    telling.extend(flow.peak().map(|peak| peak.sigma));
+    telling.retain(|sigma| (low..=high).contains(sigma));
+    let apart = |sigma: f64, others: &[f64], by: f64| {
+        others.iter().all(|other| (sigma - other).abs() > by * (high - low))
+    };
     let spread = (0..SPREAD).map(|k| low + (high - low) * f64::from(k) / f64::from(SPREAD - 1));
-    let mut sigmas: Vec<f64> = spread.filter(clear).collect();
-    sigmas.extend(folds.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])));
-    sigmas.extend(flow.peak().map(|peak| peak.sigma));
-    sigmas.retain(|sigma| (low..=high).contains(sigma));
+    let mut sigmas: Vec<f64> = spread
+        .filter(|sigma| apart(*sigma, &folds, FOLD_MARGIN) && apart(*sigma, &telling, NEIGHBOUR))
+        .collect();
+    sigmas.append(&mut telling);
     sigmas.sort_by(f64::total_cmp);
-    sigmas.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * (high - low));
     sigmas.into_iter().flat_map(|sigma| flow.responses(sigma)).collect()
 }
 
