@@ -77,7 +77,7 @@ fn setting(name: &str, value: &Value) -> Option<String> {
         _ => "1",
     };
     Some(match value {
-        Value::Null => return None,
+        Value::Null | Value::Bool(false) => return None,
         Value::Array(list) if list.is_empty() => return None,
         Value::String(text) => text.clone(),
         Value::Number(number) => quantity(number.as_f64()?, 6, unit),
@@ -96,7 +96,7 @@ fn setting(name: &str, value: &Value) -> Option<String> {
             })
             .collect::<Vec<_>>()
             .join(" "),
-        Value::Bool(truth) => if *truth { "yes" } else { "no" }.to_owned(),
+        Value::Bool(true) => "yes".to_owned(),
     })
 }
 

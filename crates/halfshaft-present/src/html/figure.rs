@@ -16,9 +16,15 @@ impl Figures {
         Self { waiting: figures }
     }
 
-    /// The figure of that id, once.
+    /// The figure of that id, once; asked again, the next one that would have had the same id and
+    /// was given a number.
     pub(super) fn take(&mut self, id: &str) -> Option<Figure> {
-        let index = self.waiting.iter().position(|figure| figure.id == id)?;
+        let numbered = |figure: &Figure| {
+            let rest = figure.id.strip_prefix(id).and_then(|rest| rest.strip_prefix('-'));
+            rest.is_some_and(|number| number.parse::<usize>().is_ok())
+        };
+        let own = self.waiting.iter().position(|figure| figure.id == id);
+        let index = own.or_else(|| self.waiting.iter().position(numbered))?;
         Some(self.waiting.remove(index))
     }
 

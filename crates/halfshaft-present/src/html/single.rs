@@ -101,11 +101,14 @@ pub(super) fn basis(answer: &Answer) -> Markup {
 
 /// The settings of every analysis.
 fn settings(answer: &Answer) -> Markup {
-    let told: Vec<(String, Vec<String>)> = account::headers(answer)
-        .into_iter()
-        .map(|header| (plain(&header.analysis), head::settings(header)))
-        .filter(|(_, settings)| !settings.is_empty())
-        .collect();
+    let mut told: Vec<(String, Vec<String>)> = Vec::new();
+    for header in account::headers(answer) {
+        let one = (plain(&header.analysis), head::settings(header));
+        // Studies ask many questions with the same settings about other models.
+        if !one.1.is_empty() && !told.contains(&one) {
+            told.push(one);
+        }
+    }
     html! {
         @if !told.is_empty() {
             h3 { "Settings" }

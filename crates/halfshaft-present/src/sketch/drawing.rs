@@ -3,7 +3,7 @@
 use halfshaft_results::CheckResult;
 
 use super::caption::{Captions, LEADING, Line, Look};
-use super::layout::{self, ABOVE_EDGE, ARROW, BELOW_EDGE, EDGE, Layout, Run};
+use super::layout::{self, ABOVE_EDGE, BELOW_EDGE, EDGE, Layout, Run};
 use super::symbols;
 use crate::figure::Colour;
 use crate::figure::scene::{
@@ -146,7 +146,7 @@ impl<'c> Drawing<'c> {
             self.parts.extend(symbols::ground(place));
             return;
         }
-        let text = self.layout.text_below[index];
+        let (above, text) = (self.layout.text_above[index], self.layout.text_below[index]);
         self.parts.push(symbols::leader(place, text - 9.0));
         self.parts.push(if half < 3.0 { symbols::dot(place) } else { symbols::plate(place, half) });
         let torques: Vec<usize> = node.torques.clone();
@@ -159,8 +159,8 @@ impl<'c> Drawing<'c> {
         }
         let lines = caption.above.len();
         for (row, line) in caption.above.iter().enumerate() {
-            let up = half + ARROW - 2.0 + (lines - 1 - row) as f64 * LEADING;
-            self.text(line, place.moved(0.0, -up));
+            let up = (lines - 1 - row) as f64 * LEADING;
+            self.text(line, Point::new(place.x, above - up));
         }
         for (row, line) in caption.below.iter().enumerate() {
             self.text(line, Point::new(place.x, text + row as f64 * LEADING));

@@ -45,6 +45,8 @@ pub(super) struct Layout {
     pub(super) places: Vec<Point>,
     /// Base line of the first line below every node.
     pub(super) text_below: Vec<f64>,
+    /// Base line of the last line above every node.
+    pub(super) text_above: Vec<f64>,
     pub(super) runs: Vec<Run>,
     pub(super) width: f64,
     pub(super) height: f64,
@@ -295,6 +297,7 @@ impl<'a> Placer<'a> {
         let mut layout = Layout {
             places: vec![Point::default(); count],
             text_below: vec![0.0; count],
+            text_above: vec![0.0; count],
             runs: Vec::new(),
             width: 2.0 * EDGE,
             height: EDGE,
@@ -308,6 +311,7 @@ impl<'a> Placer<'a> {
             for (node, at) in &row.nodes {
                 layout.places[*node] = Point::new(EDGE + at, axis);
                 layout.text_below[*node] = axis + to_text;
+                layout.text_above[*node] = axis - self.to_torques(row, *node);
                 layout.width = layout.width.max(at + self.half_width(*node) + 2.0 * EDGE);
             }
             layout.height = axis + below + ROW_GAP;
@@ -328,9 +332,12 @@ impl<'a> Placer<'a> {
         let (mut above, mut to_text, mut lines) = (20.0_f64, 24.0_f64, 0);
         for (node, _) in &row.nodes {
             let Caption { above: torques, below } = &self.captions.nodes[*node];
-            let arrows = if torques.is_empty() { 4.0 } else { ARROW };
             let text = torques.len() as f64 * LEADING;
-            above = above.max(self.halves[*node] + arrows + text);
+            above = above.max(if torques.is_empty() {
+                self.halves[*node] + 4.0
+            } else {
+                self.to_torques(row, *node) + 2.0 + text
+            });
             to_text = to_text.max(self.halves[*node] + 12.0);
             lines = lines.max(below.len());
         }
@@ -340,6 +347,15 @@ impl<'a> Placer<'a> {
             to_text = to_text.max(BELOW_EDGE + below.len() as f64 * LEADING + 3.0);
         }
         (above, to_text, to_text + lines as f64 * LEADING)
+    }
+
+    /// From the axis up to the last line of the torques on a node: clear of its arrow, and of the
+    /// names of the connections beside it, over which that line may reach.
+    fn to_torques(&self, row: &Row, node: usize) -> f64 {
+        let names = row.links.iter().map(|link| self.captions.edges[link.edge].above.len());
+        let names = names.max().unwrap_or(0) as f64;
+        let beside = ABOVE_EDGE + names * LEADING;
+        (self.halves[node] + ARROW - 2.0).max(beside)
     }
 
     fn run(&self, link: &Link, axis: f64, places: &[Point], bottoms: &[f64]) -> Run {

@@ -85,7 +85,7 @@ fn add(page: &mut Page, block: &Block) {
         Block::Lines(lines) => {
             page.gap();
             for line in lines {
-                page.line(&format!("    {line}"));
+                page.kept(&format!("    {line}"));
             }
         }
         Block::Grid(grid) => {

@@ -1,7 +1,10 @@
 //! Lines of text put together.
 
 use super::WIDTH;
-use super::wrap::wrapped;
+use super::wrap::{columns, wrapped};
+
+/// How much farther a line that was kept is set in where it goes on.
+const FURTHER: usize = 4;
 
 /// A text while it is written.
 #[derive(Debug, Default)]
@@ -21,6 +24,19 @@ impl Page {
         self.lines.push(line.trim_end().to_owned());
     }
 
+    /// A line that keeps its spaces; where it is too wide it goes on below, set in farther.
+    pub(super) fn kept(&mut self, line: &str) {
+        if columns(line) <= WIDTH {
+            return self.line(line);
+        }
+        let text = line.trim_start_matches(' ');
+        let indent = (line.len() - text.len()).min(WIDTH / 2);
+        for (index, part) in wrapped(text, WIDTH - indent - FURTHER).iter().enumerate() {
+            let further = if index == 0 { 0 } else { FURTHER };
+            self.line(&format!("{}{part}", " ".repeat(indent + further)));
+        }
+    }
+
     pub(super) fn lines(&mut self, lines: &[String]) {
         lines.iter().for_each(|line| self.line(line));
     }
@@ -28,7 +44,7 @@ impl Page {
     /// The heading of the whole text.
     pub(super) fn title(&mut self, text: &str) {
         let lines = wrapped(text, WIDTH);
-        let longest = lines.iter().map(|line| super::wrap::columns(line)).max().unwrap_or(0);
+        let longest = lines.iter().map(|line| columns(line)).max().unwrap_or(0);
         self.lines.extend(lines);
         self.lines.push("=".repeat(longest));
     }
@@ -37,7 +53,7 @@ impl Page {
     pub(super) fn heading(&mut self, text: &str) {
         self.gap();
         self.lines(&wrapped(text, WIDTH));
-        let longest = self.lines.last().map_or(0, |line| super::wrap::columns(line));
+        let longest = self.lines.last().map_or(0, |line| columns(line));
         self.lines.push("-".repeat(longest));
     }
 

@@ -88,9 +88,7 @@ fn head_width(name: &str) -> usize {
 
 fn laid_column(column: &GridColumn, width: usize) -> Laid {
     let mut head = wrapped(&column.name, width.max(2));
-    if !column.unit.is_empty() {
-        head.push(column.unit.clone());
-    }
+    head.extend(wrapped(&column.unit, width.max(2)));
     let cells = aligned(column).iter().map(|cell| cell_lines(cell, width)).collect();
     Laid { head, cells, width, numeric: column.numeric }
 }

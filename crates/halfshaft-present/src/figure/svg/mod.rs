@@ -59,13 +59,21 @@ pub(crate) fn document(scene: &Scene, head: &Head<'_>, options: &SvgOptions) -> 
     out
 }
 
-/// The id of a figure's element: letters, digits, `-` and `_` only.
-fn element_id(id: &str) -> String {
-    let kept = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
-    format!("hs-{}", id.chars().map(kept).collect::<String>())
-}
-
 // Writing to a string cannot fail, so the results of `write!` below carry no news.
+
+/// The id of a figure's element: ASCII letters, digits, `-` and `_` only. What is none of these
+/// stands as its code point, so that different ids stay different.
+fn element_id(id: &str) -> String {
+    let mut element = String::from("hs-");
+    for c in id.chars() {
+        if c.is_ascii_alphanumeric() || c == '-' {
+            element.push(c);
+        } else {
+            let _ = write!(element, "_{:x}_", u32::from(c));
+        }
+    }
+    element
+}
 
 fn open(out: &mut String, head: &Head<'_>, scene: &Scene, options: &SvgOptions) {
     let id = element_id(head.id);
