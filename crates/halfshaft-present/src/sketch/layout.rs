@@ -354,7 +354,7 @@ impl<'a> Placer<'a> {
     fn to_torques(&self, row: &Row, node: usize) -> f64 {
         let names = row.links.iter().map(|link| self.captions.edges[link.edge].above.len());
         let names = names.max().unwrap_or(0) as f64;
-        let beside = ABOVE_EDGE + names * LEADING;
+        let beside = ABOVE_EDGE + names * LEADING + 2.0;
         (self.halves[node] + ARROW - 2.0).max(beside)
     }
 

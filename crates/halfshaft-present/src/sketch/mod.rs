@@ -67,7 +67,8 @@ pub(crate) const LEGEND: &str = "Plates are inertias, taller for larger ones (by
 ///     }],
 ///     torques: Vec::new(),
 /// };
-/// let drawing = sketch(&line);
+/// // The space before a unit does not break.
+/// let drawing = sketch(&line).replace('\u{a0}', " ");
 /// assert!(drawing.contains("2.5 kg·m²") && drawing.contains("40 N·m/rad"));
 /// ```
 #[must_use]
