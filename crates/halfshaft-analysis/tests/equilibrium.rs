@@ -156,6 +156,60 @@ fn states_of_a_chain_are_the_combinations_of_its_shafts() {
     assert!(result.equilibria.iter().all(|s| s.lowest_eigenvalue > 0.0 || !s.stable));
 }
 
+// Source: the same, where the combinations are too many to list (3¹⁰): the stable state, which is
+// the one nearest to zero twist in every shaft, is still found, and the list says that it is short.
+#[test]
+fn the_stable_state_is_found_among_too_many_to_list() {
+    let inertias = [1.0; 11];
+    let text = chain(&inertias, &[1000.0; 10], None, 0.0)
+        + "[[torque]]\nname = \"t\"\non = \"n0\"\nmean = 10\n\
+           [[torque]]\nname = \"u\"\non = \"n10\"\nmean = \"balance\"\n";
+    let settings: Vec<String> = (0..10).map(|i| format!("s{i}.cubic=-300")).collect();
+    let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+    let result = statics(&line_of(&text, &settings));
+    assert_eq!(result.equilibria.iter().filter(|state| state.stable).count(), 1);
+    assert!(result.equilibria[0].stable && !result.complete);
+    for twist in result.equilibria[0].twist.values() {
+        assert_close(1000.0 * twist - 300.0 * twist.powi(3), 10.0, 1e-12);
+        assert!(twist.abs() < 0.011);
+    }
+    assert!(result.header.assumptions.iter().any(|text| text.contains("of the 59049")));
+    assert!(result.header.warnings.is_empty(), "{:?}", result.header.warnings);
+}
+
+// Source: the sum of two laws, 100 x - 10 x³ and -(50 y + 3 y² - 8 y³) at y = -x: its largest torque
+// lies where its slope 150 - 6 x - 54 x² vanishes, and neither law alone decides.
+#[test]
+fn shafts_side_by_side_are_judged_by_what_they_carry_together() {
+    let text = |torque: f64| {
+        loaded(100.0, -10.0, torque)
+            + "[[shaft]]\nname = \"q\"\nfrom = \"b\"\nto = \"a\"\nstiffness = 50\n\
+               quadratic = 3\ncubic = -8\n"
+    };
+    let twist = (-6.0 + (36.0_f64 + 4.0 * 54.0 * 150.0).sqrt()) / 108.0;
+    let most = 150.0 * twist - 3.0 * twist * twist - 18.0 * twist.powi(3);
+    let holds = statics(&line_of(&text(most - 1e-3), &[]));
+    assert_eq!(holds.shared.len(), 1);
+    assert_eq!(holds.shared[0].shafts, ["s", "q"]);
+    let limit = holds.shared[0].capacity.and_then(|c| c.positive).expect("a limit");
+    assert_close(limit.torque, most, 1e-13);
+    assert_close(limit.twist, twist, 1e-13);
+    assert!(holds.equilibria.iter().any(|state| state.stable));
+    assert!(holds.required_torque.is_empty() && holds.header.warnings.is_empty());
+    let fails = statics(&line_of(&text(250.0), &[]));
+    let warning = &fails.header.warnings[0];
+    assert!(warning.contains("250 N·m on s and q together; their laws carry 159 N·m"), "{warning}");
+}
+
+// Source: the potential x⁴/4 of a purely cubic spring has its minimum at zero.
+#[test]
+fn a_cubic_well_without_linear_stiffness_holds() {
+    let result = statics(&line_of(&loaded(0.0, 1.0, 0.0), &[]));
+    assert!(result.equilibria.len() == 1 && result.equilibria[0].stable);
+    let falls = statics(&line_of(&loaded(0.0, -1.0, 0.0), &[]));
+    assert!(falls.equilibria.iter().all(|state| !state.stable));
+}
+
 // Source: a nonlinear loop solved by the search must be stationary points of the potential.
 #[test]
 fn nonlinear_loops_are_searched_and_said_so() {

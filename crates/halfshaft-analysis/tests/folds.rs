@@ -3,8 +3,8 @@
 mod common;
 
 use common::{assert_close, driveline, folds, oscillator, resonance};
-use halfshaft_model::question::QuestionText;
-use halfshaft_results::{FoldsResult, SpecialKind, Status};
+use halfshaft_model::question::{QuestionText, Verb};
+use halfshaft_results::{Answer, FoldsResult, SpecialKind, Status};
 
 const OMEGA: f64 = 26.06;
 
@@ -192,4 +192,55 @@ fn a_plane_without_folds_says_where_they_would_begin() {
     assert!(result.curves.is_empty());
     let warning = &result.header.warnings[0];
     assert!(warning.contains("no fold") && warning.contains("f = 6.783767"), "{warning}");
+}
+
+fn folds_between(line: &halfshaft_model::Driveline, parameter: &str, speeds: &str) -> FoldsResult {
+    let text = QuestionText {
+        parameter: Some(parameter.to_owned()),
+        frequency: Some(speeds.to_owned()),
+        ..QuestionText::default()
+    };
+    match common::try_ask(line, Verb::Folds, &text) {
+        Ok(Answer::Folds(result)) => result,
+        other => panic!("{other:?}"),
+    }
+}
+
+// Source: the cusp of the damping plane (22.24 rad/s) lies outside the speeds asked for: that is
+// said, and not that nothing folds.
+#[test]
+fn folds_outside_the_speeds_asked_for_are_told() {
+    let result = folds_between(&driveline(&[]), "half-shaft.damping=1..40", "100..200");
+    assert!(result.curves.is_empty() && result.special_points.is_empty());
+    let warnings = result.header.warnings.join("; ");
+    assert!(warnings.contains("but folds at excitation speeds from"), "{warnings}");
+}
+
+// Source: theory 5: the threshold of the amplitude does not depend on the model's own amplitude.
+#[test]
+fn a_silent_torque_can_be_the_axis() {
+    let range = "engine torque.amplitude=1..2000";
+    let loud = folds(&driveline(&[]), range);
+    let silent = folds(&driveline(&["engine torque.amplitude=0"]), range);
+    let cusp = |result: &FoldsResult| cusps(result)[0];
+    assert_close(cusp(&silent).0, cusp(&loud).0, 1e-12);
+}
+
+// Source: a frequency is positive; and the scaled equation alone has no shaft whose torque changes
+// with its coefficients.
+#[test]
+fn planes_of_the_scaled_equation_stay_within_its_meaning() {
+    let line = oscillator(&[]);
+    for (parameter, torque) in [
+        ("mode.beta=0.001..0.3", true),
+        ("mode.alpha=-2..2", false),
+        ("mode.omega_1=5..40", false),
+    ] {
+        let result = folds(&line, parameter);
+        for curve in &result.curves {
+            assert!(curve.values("frequency").iter().all(|speed| *speed > 0.0), "{parameter}");
+            let told = curve.columns.iter().any(|column| column.name.contains("torque"));
+            assert_eq!(told, torque, "{parameter}");
+        }
+    }
 }

@@ -277,6 +277,41 @@ fn verification_holds_the_full_equations_against_the_closed_form() {
     assert_close(point.largest_multiplier, (-0.0951 * period / 2.0).exp(), 1e-6);
 }
 
+// Source: geometry: every bent curve has as many jumps as folds, however high it rises above the
+// response that it falls to.
+#[test]
+fn every_fold_has_its_jump() {
+    for f in [10, 15, 30, 40, 60, 80] {
+        let line = oscillator(&[&format!("excitation.amplitude={f}")]);
+        let result = all(&line);
+        let folds = special(&result, SpecialKind::Fold);
+        let sweeps: Vec<&str> = result.jumps.iter().map(|jump| jump.sweep.as_str()).collect();
+        assert_eq!((folds.len(), sweeps.len()), (2, 2), "f = {f}: {sweeps:?}");
+        assert!(sweeps.contains(&"up") && sweeps.contains(&"down"), "f = {f}: {sweeps:?}");
+    }
+}
+
+/// Stops after some looks.
+struct Impatient(std::sync::atomic::AtomicUsize);
+
+impl halfshaft_numerics::observer::Observer for Impatient {
+    fn cancelled(&self) -> bool {
+        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 3
+    }
+}
+
+// Source: the contract of every analysis: what was reached, and why it ended.
+#[test]
+fn a_stopped_verification_says_how_far_it_came() {
+    let line = oscillator(&[]);
+    let text = QuestionText { verify: true, ..Default::default() };
+    let question = common::question(&line, Verb::Resonance, &text);
+    let answer = halfshaft_analysis::ask(&line, &question, &Impatient(0.into())).expect("answers");
+    let termination = &answer.header().termination;
+    assert_eq!(termination.reason, halfshaft_results::Reason::Cancelled);
+    assert!(termination.detail.as_deref().is_some_and(|text| text.starts_with("3 of ")));
+}
+
 // Source: the full equations; where folds lie too close for an even spread to fall between them,
 // the three coexisting responses are still held against their own three orbits.
 #[test]

@@ -254,6 +254,27 @@ fn an_impulse_inside_the_run_is_the_limit_of_short_rectangles() {
     assert_close(short, impulse, 1e-6);
 }
 
+// Source: Newton's law: an impulse P changes the speed by P/J at once; a sample of that very time is
+// the state after it, wherever in the history it stands.
+#[test]
+fn a_sample_at_the_time_of_an_impulse_is_the_state_after_it() {
+    for start in [0.0, 0.25] {
+        let text = chain(&[2.0], &[], Some(50.0), 0.0)
+            + &format!(
+                "[[torque]]\nname = \"t\"\non = \"n0\"\n\
+                 pulse = {{ shape = \"impulse\", impulse = 3, start = {start} }}\n"
+            );
+        let text_of = QuestionText {
+            duration: some("1s"),
+            step: some("0.125s"),
+            ..QuestionText::default()
+        };
+        let result = simulate(&line_of(&text, &[]), text_of);
+        assert_eq!(result.values("time").len(), 9);
+        assert_close(at(&result, "n0.speed", start), 1.5, 1e-12);
+    }
+}
+
 // Source: uniform acceleration: the angle of a free line under a mean torque is a t²/2, and after
 // many turns the twist has lost no digit.
 #[test]
@@ -282,6 +303,10 @@ fn a_runaway_ends_with_a_reason_and_what_was_reached() {
     assert_ne!(result.header.termination.reason, Reason::Completed);
     let detail = result.header.termination.detail.clone().expect("says why");
     assert!(detail.contains("runs away"), "{detail}");
+    assert_eq!(result.header.termination.reason, Reason::RunsAway);
+    let warnings = result.header.warnings.join("; ");
+    assert!(warnings.contains("needs 8688 N·m on the half-shaft"), "{warnings}");
+    assert!(!warnings.contains("energy"), "{warnings}");
     assert!(result.values("time").len() > 10);
     assert!(result.values("time").len() == result.values("half-shaft.twist").len());
 }

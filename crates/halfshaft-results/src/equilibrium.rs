@@ -36,6 +36,17 @@ pub struct ShaftCapacity {
     pub negative: Option<Limit>,
 }
 
+/// Shafts that share a torque, because they connect the same parts or lie in a loop.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SharedLoad {
+    /// Their names; torque and twist below are in the sense of the first.
+    pub shafts: Vec<String>,
+    /// Torque that they must carry together, N·m; `None` where a loop leaves it undecided.
+    pub required_torque: Option<f64>,
+    /// What they can carry together; `None` where a loop leaves it undecided.
+    pub capacity: Option<ShaftCapacity>,
+}
+
 /// How the line runs under its mean torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -72,13 +83,15 @@ pub struct GearState {
     pub gear: String,
     /// Its ratio.
     pub ratio: f64,
-    /// Torque that each shaft must carry, N·m.
+    /// Torque that each shaft must carry, N·m, where it carries it alone.
     pub required_torque: Named<f64>,
+    /// Shafts that share a torque.
+    pub shared: Vec<SharedLoad>,
     /// Twist of each shaft in the stable state of rest; empty where there is none.
     pub twist: Named<f64>,
     /// Whether a stable state of rest exists.
     pub exists: bool,
-    /// The shaft that cannot carry its torque, if any.
+    /// The shaft that cannot carry its torque, if any; the first of those that share it.
     pub overloaded: Option<String>,
 }
 
@@ -97,8 +110,10 @@ pub struct StaticResult {
     pub torque_capacity: Named<Option<f64>>,
     /// Limits of each shaft in both directions.
     pub capacity: Named<ShaftCapacity>,
-    /// Torque that each shaft must carry, N·m, where statics alone decides it.
+    /// Torque that each shaft must carry, N·m, where it carries it alone.
     pub required_torque: Named<f64>,
+    /// Shafts that share a torque.
+    pub shared: Vec<SharedLoad>,
     /// How the line runs.
     pub running: Running,
     /// What other gears ask, where the model lists ratios.

@@ -37,14 +37,15 @@ pub struct ChannelMetrics {
 /// How a shaft takes a disturbance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShaftMetrics {
-    /// Twist at the first turning point after the disturbance, less the final twist, rad.
-    pub first_peak: f64,
+    /// Twist at the first turning point after the disturbance, less the final twist, rad; `None`
+    /// where it does not turn in the time simulated.
+    pub first_peak: Option<f64>,
     /// When, s.
-    pub first_peak_time: f64,
+    pub first_peak_time: Option<f64>,
     /// Rate of twist at its first turning point, rad/s.
-    pub first_rate_peak: f64,
+    pub first_rate_peak: Option<f64>,
     /// When, s.
-    pub first_rate_peak_time: f64,
+    pub first_rate_peak_time: Option<f64>,
     /// Torque of largest magnitude, with its sign, N·m.
     pub peak_torque: f64,
     /// When, s.
@@ -53,7 +54,7 @@ pub struct ShaftMetrics {
     pub static_torque: f64,
     /// Peak torque over static torque; `None` where the shaft was unloaded.
     pub dynamic_factor: Option<f64>,
-    /// When the twist stays within 5 % of the first peak for good, s; `None` where it does
+    /// When the twist stays within 5 % of its largest peak for good, s; `None` where it does
     /// not settle in the time simulated.
     pub settling_time: Option<f64>,
     /// Frequency of the free oscillation, rad/s, from its turning points; `None` where there
@@ -88,11 +89,11 @@ pub struct MethodRow {
     /// What it solves.
     pub equation: String,
     /// First peak of the disturbance, rad.
-    pub first_peak: f64,
+    pub first_peak: Option<f64>,
     /// When, s.
-    pub first_peak_time: f64,
+    pub first_peak_time: Option<f64>,
     /// First peak of its rate, rad/s.
-    pub first_rate_peak: f64,
+    pub first_rate_peak: Option<f64>,
     /// Frequency of the free oscillation, rad/s.
     pub oscillation_frequency: Option<f64>,
     /// Decay rate, 1/s.

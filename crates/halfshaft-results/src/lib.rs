@@ -28,7 +28,7 @@ pub use check::{
     CheckResult, CheckedGear, CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
 };
 pub use equilibrium::{
-    Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, StaticResult,
+    Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, SharedLoad, StaticResult,
 };
 pub use folds::FoldsResult;
 pub use header::{Header, ModelIdentity, Reason, Termination};

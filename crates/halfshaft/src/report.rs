@@ -8,7 +8,8 @@ use halfshaft_model::question::{
 };
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Answer, FoldsResult, Header, MissingSection, ModeScaling, ReportResult, ResonanceResult,
+    Answer, FoldsResult, Header, MissingSection, ModeScaling, Reason, ReportResult,
+    ResonanceResult, Termination,
 };
 
 /// Asks everything that a report tells about a line.
@@ -70,10 +71,16 @@ impl Reporter<'_> {
 
     /// One answer; where there is none the reason is noted.
     fn ask(&mut self, section: &str, question: &Question) -> Option<Answer> {
+        if self.stopped(section) {
+            return None;
+        }
         self.observer.progress(f64::from(self.done) / f64::from(SECTIONS));
         self.done += 1;
         match ask(self.line, question, self.observer) {
-            Ok(answer) => Some(answer),
+            Ok(answer) => {
+                self.heed(answer.header());
+                Some(answer)
+            }
             Err(error) => {
                 self.report.missing.push(MissingSection {
                     section: section.to_owned(),
@@ -82,6 +89,33 @@ impl Reporter<'_> {
                 });
                 None
             }
+        }
+    }
+
+    /// Whether the user has stopped the report; then what is missing says so.
+    fn stopped(&mut self, section: &str) -> bool {
+        if !self.observer.cancelled() {
+            return false;
+        }
+        let termination = &mut self.report.header.termination;
+        if termination.is_complete() {
+            let detail = format!("stopped by the user before the section {section}");
+            *termination = Termination::early(Reason::Cancelled, detail);
+        }
+        self.report.missing.push(MissingSection {
+            section: section.to_owned(),
+            reason: "stopped by the user".to_owned(),
+            advice: None,
+        });
+        true
+    }
+
+    /// Takes over that a section ended early because the user stopped it.
+    fn heed(&mut self, header: &Header) {
+        if header.termination.reason == Reason::Cancelled
+            && self.report.header.termination.is_complete()
+        {
+            self.report.header.termination = header.termination.clone();
         }
     }
 

@@ -5,7 +5,8 @@ use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, ResonanceQuestion, Verb};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Branch, Column, JumpSpeeds, Named, ResonanceResult, SpecialKind, SpecialPoint, Status, Table,
+    Branch, Column, JumpSpeeds, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint, Status,
+    Table, Termination,
 };
 
 use super::columns::ChannelMaps;
@@ -26,7 +27,7 @@ pub(crate) fn solve(
     observer: &dyn Observer,
 ) -> Result<ResonanceResult, AnalysisError> {
     let equations = EquationsOfMotion::new(line)?;
-    let states = equilibrium::find(&equations)?;
+    let states = equilibrium::find_stable(&equations)?;
     let rest = choose_equilibrium(line, &equations, &states, None)?;
     let modes = excited_modes(&equations, rest, question)?;
     let mut result = ResonanceResult {
@@ -74,6 +75,14 @@ fn verify(
             missed.rho(),
             mode.frequency(missed.sigma)
         ));
+    }
+    if checked.cancelled {
+        let detail = format!(
+            "{} of {} responses were held against the full equations",
+            checked.points.len(),
+            points.len()
+        );
+        result.header.termination = Termination::early(Reason::Cancelled, detail);
     }
     result.verification.extend(checked.points);
     Ok(())
@@ -126,6 +135,9 @@ fn excited_modes(
     Ok(modes)
 }
 
+/// Detuning, as part of the natural frequency, below which averaging is not asked.
+pub(super) const MOST_DETUNED: f64 = 0.95;
+
 /// Range of Ω that shows the resonance: several widths of it and all of its bend.
 fn default_window(mode: &ModeEquation) -> (f64, f64) {
     let flow = mode.slow_flow();
@@ -136,7 +148,7 @@ fn default_window(mode: &ModeEquation) -> (f64, f64) {
         bend = (bend.0.min(sigma), bend.1.max(sigma));
     }
     reach = reach.max(bend.1 - bend.0).clamp(1e-3 * mode.omega, 0.5 * mode.omega);
-    let low = (bend.0.max(-0.8 * mode.omega) - reach).max(-0.95 * mode.omega);
+    let low = (bend.0.max(-0.8 * mode.omega) - reach).max(-MOST_DETUNED * mode.omega);
     let high = bend.1.min(2.0 * mode.omega) + reach;
     (mode.frequency(low), mode.frequency(high))
 }
@@ -213,7 +225,7 @@ fn jumps(mode: &ModeEquation, flow: &SlowFlow, (from, to): (f64, f64)) -> Vec<Ju
     let inside = folds.iter().filter(|fold| fold.sigma >= from && fold.sigma <= to);
     inside
         .filter_map(|fold| {
-            let sweep = if turns_back(flow, fold)? { "up" } else { "down" };
+            let sweep = if turns_back(flow, fold, &folds)? { "up" } else { "down" };
             let frequency = mode.frequency(fold.sigma);
             let far = |response: &Response| (response.z / fold.z - 1.0).abs() > 1e-5;
             let after = flow
@@ -236,8 +248,15 @@ fn jumps(mode: &ModeEquation, flow: &SlowFlow, (from, to): (f64, f64)) -> Vec<Ju
 }
 
 /// Whether the curve lies below the fold in frequency: then sweeps upwards jump there.
-fn turns_back(flow: &SlowFlow, fold: &Response) -> Option<bool> {
-    let near = flow.at(fold.z * (1.0 + 1e-4), fold.beyond > 0.0)?;
+fn turns_back(flow: &SlowFlow, fold: &Response, folds: &[Response]) -> Option<bool> {
+    // Towards smaller amplitudes, since just above the fold the curve may end at its peak; and
+    // not past the neighbouring fold near a cusp.
+    let room = folds
+        .iter()
+        .filter(|other| other.z < fold.z)
+        .map(|other| 1.0 - other.z / fold.z)
+        .fold(f64::INFINITY, f64::min);
+    let near = flow.at(fold.z * (1.0 - (room / 3.0).min(1e-4)), fold.beyond > 0.0)?;
     Some(near.sigma < fold.sigma)
 }
 
@@ -272,7 +291,15 @@ fn say(equations: &EquationsOfMotion, mode: &ModeEquation, result: &mut Resonanc
              the limit of its law: the line would give way there, which averaging does not see"
         ));
     }
-    if let Some((_, z)) = flow.threshold().filter(|(_, z)| z.sqrt() > room) {
+    let jumps = flow.folds().iter().map(Response::rho).fold(f64::INFINITY, f64::min);
+    if jumps.is_finite() && jumps > room {
+        header.warnings.push(format!(
+            "the jumps begin at a swing of {jumps:.4} rad, past the {room:.4} rad that are left to the \
+             limit of the law of the {name}: the shaft would give way before it jumps"
+        ));
+    } else if let Some((_, z)) =
+        flow.threshold().filter(|(_, z)| jumps.is_infinite() && z.sqrt() > room)
+    {
         header.assumptions.push(format!(
             "a jump is out of reach: it would begin at a swing of {:.4} rad, but from rest the law of \
              the {name} carries only to {room:.4} rad, so the shaft would give way first",

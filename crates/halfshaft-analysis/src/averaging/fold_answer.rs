@@ -9,6 +9,7 @@ use halfshaft_model::Driveline;
 use halfshaft_model::question::{FoldsQuestion, ParameterRange, Question, Verb};
 use halfshaft_results::{Column, FoldsResult, SpecialKind, SpecialPoint, Status, Table};
 
+use super::answer::MOST_DETUNED;
 use super::columns::ChannelMaps;
 use super::fold_curves::{FoldCurves, FoldPoint, FoldTracer};
 use super::mode_equation::ModeEquation;
@@ -68,13 +69,8 @@ pub(crate) fn solve(
 impl<'q> Family<'q> {
     fn new(line: &'q Driveline, question: &'q FoldsQuestion) -> Result<Self, AnalysisError> {
         let equations = EquationsOfMotion::new(line)?;
-        let states = equilibrium::find(&equations)?;
+        let states = equilibrium::find_stable(&equations)?;
         let rest = choose_equilibrium(line, &equations, &states, None)?;
-        let order = match question.order {
-            Some(order) => order,
-            None => strongest(&equations, rest, question.mode)?,
-        };
-        let base = ModeEquation::new(&equations, rest, question.mode, order)?;
         let target = match question.parameter.address.as_str() {
             "mode.alpha" => Target::Coefficient(Coefficient::Alpha),
             "mode.beta" => Target::Coefficient(Coefficient::Beta),
@@ -84,6 +80,21 @@ impl<'q> Family<'q> {
                 line.parameter(address).map_err(halfshaft_model::ChangeError::Address)?,
             ),
         };
+        let order = match question.order {
+            Some(order) => Some(order),
+            None => strongest(&equations, rest, question.mode)?,
+        };
+        // A torque that the parameter alone brings to life is found at the end of its range.
+        let order = match (order, &target) {
+            (None, Target::Model(parameter)) => {
+                strongest_at(line, parameter, question.parameter.to, question.mode)?
+            }
+            (order, _) => order,
+        };
+        let order = order.ok_or_else(|| AnalysisError::NoExcitation {
+            reason: "no torque has an amplitude".to_owned(),
+        })?;
+        let base = ModeEquation::new(&equations, rest, question.mode, order)?;
         let made = RefCell::default();
         Ok(Self { line, question, order, target, base: (equations, base), made })
     }
@@ -109,7 +120,7 @@ impl<'q> Family<'q> {
         };
         let Ok(line) = self.line.with(parameter, value) else { return Ok(None) };
         let equations = EquationsOfMotion::new(&line)?;
-        let states = equilibrium::find(&equations)?;
+        let states = equilibrium::find_stable(&equations)?;
         let Some(rest) = states.primary() else { return Ok(None) };
         match ModeEquation::new(&equations, rest, self.question.mode, self.order) {
             Ok(mode) => Ok(Some((equations, mode))),
@@ -143,12 +154,16 @@ impl<'q> Family<'q> {
     }
 
     fn result(&self, traced: &FoldCurves) -> Result<FoldsResult, AnalysisError> {
-        let window = self.question.frequency;
-        let inside =
-            |frequency: f64| window.is_none_or(|(from, to)| frequency >= from && frequency <= to);
+        let (low, high) = self.window();
+        let inside = |frequency: f64| low <= frequency && frequency <= high;
         let mut curves = Vec::new();
+        let mut outside: Option<(f64, f64)> = None;
         for curve in &traced.curves {
             let rows = curve.iter().map(|point| self.row(point)).collect::<Result<Vec<_>, _>>()?;
+            for frequency in rows.iter().flatten().map(|row| row[0]).filter(|f| !inside(*f)) {
+                let (least, most) = outside.unwrap_or((frequency, frequency));
+                outside = Some((least.min(frequency), most.max(frequency)));
+            }
             let rows: Vec<Option<Vec<f64>>> =
                 rows.into_iter().map(|row| row.filter(|row| inside(row[0]))).collect();
             curves.extend(self.tables(&rows));
@@ -167,9 +182,9 @@ impl<'q> Family<'q> {
         }
         let verb = Verb::Folds;
         let mut header = header(self.line, verb, &Question::Folds(self.question.clone()));
-        self.say(traced, curves.is_empty(), &mut header);
+        self.say(traced, curves.is_empty(), outside, &mut header);
         let (equations, mode) = &self.base;
-        let states = equilibrium::find(equations)?;
+        let states = equilibrium::find_stable(equations)?;
         let rest = choose_equilibrium(self.line, equations, &states, None)?;
         let label = mode_label(equations, rest, self.question.mode)?;
         Ok(FoldsResult {
@@ -183,12 +198,36 @@ impl<'q> Family<'q> {
         })
     }
 
-    fn say(&self, traced: &FoldCurves, nothing: bool, header: &mut halfshaft_results::Header) {
+    /// Range of Ω that is shown: what was asked for, or all that averaging can speak of.
+    fn window(&self) -> (f64, f64) {
+        let least = (1.0 - MOST_DETUNED) * self.base.1.frequency(0.0);
+        self.question.frequency.unwrap_or((least, f64::INFINITY))
+    }
+
+    fn say(
+        &self,
+        traced: &FoldCurves,
+        nothing: bool,
+        outside: Option<(f64, f64)>,
+        header: &mut halfshaft_results::Header,
+    ) {
         let ParameterRange { address, from, to } = &self.question.parameter;
         header
             .assumptions
             .push("folds of the averaged response of one mode near its resonance".to_owned());
-        if nothing {
+        match (outside, self.question.frequency) {
+            (Some((least, most)), Some((from, to))) if nothing => header.warnings.push(format!(
+                "no fold between {from:.6} and {to:.6} rad/s, but folds at excitation speeds from \
+                 {least:.6} to {most:.6} rad/s"
+            )),
+            (Some(_), None) => header.assumptions.push(format!(
+                "folds below {:.4} rad/s are left out: so far from the natural frequency averaging \
+                 does not speak",
+                self.window().0
+            )),
+            _ => {}
+        }
+        if nothing && outside.is_none() {
             let threshold = self.base.1.slow_flow().threshold();
             let hint = threshold.map_or_else(String::new, |(drive, _)| {
                 format!(
@@ -219,10 +258,19 @@ impl<'q> Family<'q> {
             ("frequency".to_owned(), "rad/s".to_owned()),
             (self.question.parameter.address.clone(), self.unit().to_owned()),
         ];
-        names.extend(maps.harmonic_names().map(|(name, unit)| (name, unit.to_owned())));
+        let shown = maps.harmonic_names().filter(|(name, _)| self.shows(name));
+        names.extend(shown.map(|(name, unit)| (name, unit.to_owned())));
         names.push(("sigma".to_owned(), "rad/s".to_owned()));
         names.push(("rho".to_owned(), "rad".to_owned()));
         names
+    }
+
+    /// Whether a channel has a meaning: a restoring coefficient of the scaled equation that is
+    /// changed by itself has no shaft whose torque could be told.
+    fn shows(&self, channel: &str) -> bool {
+        let restoring =
+            matches!(self.target, Target::Coefficient(Coefficient::Alpha | Coefficient::Omega));
+        !(restoring && channel.contains(".torque."))
     }
 
     /// Values of a fold in the order of the names; `None` where the mode cannot be had.
@@ -231,7 +279,8 @@ impl<'q> Family<'q> {
         let (equations, mode) = &*member;
         let maps = ChannelMaps::new(equations, mode);
         let mut row = vec![mode.frequency(point.response.sigma), point.parameter];
-        row.extend(maps.harmonic_values(mode, &point.response));
+        let values = maps.harmonic_names().zip(maps.harmonic_values(mode, &point.response));
+        row.extend(values.filter(|((name, _), _)| self.shows(name)).map(|(_, value)| value));
         row.extend([point.response.sigma, point.response.rho()]);
         Ok(Some(row))
     }
@@ -282,12 +331,12 @@ impl Coefficient {
     }
 }
 
-/// The order that drives the mode most.
+/// The order that drives the mode most; `None` where no torque has an amplitude.
 fn strongest(
     equations: &EquationsOfMotion,
     rest: &equilibrium::RestState,
     mode: usize,
-) -> Result<f64, AnalysisError> {
+) -> Result<Option<f64>, AnalysisError> {
     let mut best: Option<(f64, f64)> = None;
     for order in equations.excitation.orders() {
         let f = ModeEquation::new(equations, rest, mode, order)?.f;
@@ -295,7 +344,18 @@ fn strongest(
             best = Some((order, f));
         }
     }
-    best.map(|(order, _)| order).ok_or_else(|| AnalysisError::NoExcitation {
-        reason: "no torque has an amplitude".to_owned(),
-    })
+    Ok(best.map(|(order, _)| order))
+}
+
+/// The same for the line with another value of a parameter.
+fn strongest_at(
+    line: &Driveline,
+    parameter: &halfshaft_model::Parameter,
+    value: f64,
+    mode: usize,
+) -> Result<Option<f64>, AnalysisError> {
+    let Ok(line) = line.with(parameter, value) else { return Ok(None) };
+    let equations = EquationsOfMotion::new(&line)?;
+    let states = equilibrium::find_stable(&equations)?;
+    states.primary().map_or(Ok(None), |rest| strongest(&equations, rest, mode))
 }

@@ -4,10 +4,10 @@ use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, Verb};
 use halfshaft_results::{
-    Column, GearState, Named, RunningKind, ShaftCapacity, StaticResult, Table,
+    Column, GearState, Named, RunningKind, ShaftCapacity, SharedLoad, StaticResult, Table,
 };
 
-use super::{RestStates, capacity, carries, find};
+use super::{Overload, RestStates, Shared, capacity, carries, find, find_stable};
 use crate::error::AnalysisError;
 use crate::header::header;
 use crate::modal::{by_connection, rest_result};
@@ -28,19 +28,27 @@ pub(crate) fn solve(line: &Driveline) -> Result<StaticResult, AnalysisError> {
     let gears = gear_states(line)?;
     let mut header = header(line, Verb::Static, &Question::Static);
     header.assumptions.push(running_sentence(&equations, &states));
-    if !states.complete {
+    if !states.proven {
         header.assumptions.push(
             "shafts in loops share their torque; their equilibria were searched for from many \
              starts, which is not a proof that there are no others"
                 .to_owned(),
         );
     }
+    if let Some(count) = states.left_out {
+        header.assumptions.push(format!(
+            "of the {count:.0} combinations of twists in equilibrium the {} nearest to zero twist \
+             are listed, stable ones first",
+            states.states.len()
+        ));
+    }
     if states.primary().is_none() {
         header.warnings.push(overload_message(line, &equations, &states));
     }
     let load = load_words(&equations);
-    for state in gears.iter().filter(|state| !state.exists) {
-        let message = gear_message(line, &load, state, torque_capacity_of(&equations, state));
+    for (state, overload) in &gears {
+        let Some(overload) = overload.as_ref().filter(|_| !state.exists) else { continue };
+        let message = needs(&gear_subject(line, &load, state), &equations, overload);
         if !header.warnings.contains(&message) {
             header.warnings.push(message);
         }
@@ -52,12 +60,13 @@ pub(crate) fn solve(line: &Driveline) -> Result<StaticResult, AnalysisError> {
             .iter()
             .map(|state| rest_result(&equations, state))
             .collect::<Result<_, _>>()?,
-        complete: states.complete,
+        complete: states.is_complete(),
         torque_capacity: names().zip(torque_capacity).collect(),
         capacity: names().zip(capacities.iter().copied()).collect(),
         required_torque: required(&equations, &states),
+        shared: shared(&equations, &states),
         running: states.running.result(&equations),
-        gears,
+        gears: gears.into_iter().map(|(state, _)| state).collect(),
         curves: (0..capacities.len())
             .map(|index| {
                 let twists = states.states.iter().map(|state| state.twists[index]);
@@ -68,13 +77,26 @@ pub(crate) fn solve(line: &Driveline) -> Result<StaticResult, AnalysisError> {
     })
 }
 
-/// Torque asked of each shaft: by statics alone, else in the stable state.
+/// Torque asked of each shaft that carries it alone.
 fn required(equations: &EquationsOfMotion, states: &RestStates) -> Named<f64> {
-    let carried = |index: usize| states.primary().map(|state| state.torques[index]);
     let of = |(index, asked): (usize, &Option<f64>)| {
-        Some((equations.connections[index].name.clone(), asked.or_else(|| carried(index))?))
+        Some((equations.connections[index].name.clone(), (*asked)?))
     };
     states.asked.iter().enumerate().filter_map(of).collect()
+}
+
+/// The shafts that share a torque.
+fn shared(equations: &EquationsOfMotion, states: &RestStates) -> Vec<SharedLoad> {
+    let of = |shared: &Shared| SharedLoad {
+        shafts: names(equations, &shared.connections),
+        required_torque: shared.asked,
+        capacity: shared.capacity,
+    };
+    states.shared.iter().map(of).collect()
+}
+
+fn names(equations: &EquationsOfMotion, connections: &[usize]) -> Vec<String> {
+    connections.iter().map(|index| equations.connections[*index].name.clone()).collect()
 }
 
 /// How the line runs, as a sentence.
@@ -107,8 +129,8 @@ fn running_sentence(equations: &EquationsOfMotion, states: &RestStates) -> Strin
     }
 }
 
-/// The line in each gear of each gearbox that lists its ratios.
-fn gear_states(line: &Driveline) -> Result<Vec<GearState>, AnalysisError> {
+/// The line in each gear of each gearbox that lists its ratios, with what is overloaded there.
+fn gear_states(line: &Driveline) -> Result<Vec<(GearState, Option<Overload>)>, AnalysisError> {
     let mut rows = Vec::new();
     for gear in line.gears() {
         let address = format!("{}.ratio", gear.name);
@@ -116,26 +138,22 @@ fn gear_states(line: &Driveline) -> Result<Vec<GearState>, AnalysisError> {
         for ratio in &gear.ratios {
             let shifted = line.with(&parameter, *ratio)?;
             let equations = EquationsOfMotion::new(&shifted)?;
-            let states = find(&equations)?;
+            let states = find_stable(&equations)?;
             let twist = states.primary().map(|state| by_connection(&equations, &state.twists));
-            let overloaded = states.overload.map(|overload| overload.connection);
-            rows.push(GearState {
+            let first = states.overload.as_ref().map(|overload| overload.connections[0]);
+            let state = GearState {
                 gear: gear.name.clone(),
                 ratio: *ratio,
                 required_torque: required(&equations, &states),
+                shared: shared(&equations, &states),
                 exists: twist.is_some(),
                 twist: twist.unwrap_or_default(),
-                overloaded: overloaded.map(|index| equations.connections[index].name.clone()),
-            });
+                overloaded: first.map(|index| equations.connections[index].name.clone()),
+            };
+            rows.push((state, states.overload));
         }
     }
     Ok(rows)
-}
-
-fn torque_capacity_of(equations: &EquationsOfMotion, state: &GearState) -> Option<f64> {
-    let index = equations.connection(state.overloaded.as_deref()?)?;
-    let load = state.required_torque.get(state.overloaded.as_deref()?).copied().unwrap_or(0.0);
-    carries(&capacity(&equations.connections[index].law), load)
 }
 
 /// The torque that loads the line: " at 850 N·m", or nothing where several sources load it.
@@ -157,29 +175,32 @@ fn round(value: f64) -> String {
     }
 }
 
-fn gear_message(line: &Driveline, load: &str, state: &GearState, carries: Option<f64>) -> String {
+fn gear_subject(line: &Driveline, load: &str, state: &GearState) -> String {
     let listed = line.gears().iter().filter(|gear| !gear.ratios.is_empty()).count();
     let gear = if listed == 1 { "gear" } else { state.gear.as_str() };
-    let subject = format!("{gear} {}{load}", state.ratio);
-    needs(&subject, state.overloaded.as_deref(), &state.required_torque, carries)
+    format!("{gear} {}{load}", state.ratio)
 }
 
-fn needs(
-    subject: &str,
-    shaft: Option<&str>,
-    required: &Named<f64>,
-    carries: Option<f64>,
-) -> String {
-    let Some(shaft) = shaft else { return format!("{subject}: no stable state was found") };
-    let needed = required.get(shaft).copied().unwrap_or(0.0).abs();
-    let carried = carries.map_or_else(
-        || "holds no such torque in a stable state".to_owned(),
-        |carries| format!("carries {}", pair(needed, carries).1),
-    );
-    format!(
-        "{subject} needs {} on the {shaft}; its law {carried}",
-        pair(needed, carries.unwrap_or(0.0)).0
-    )
+/// "gear 1.79 at 850 N·m needs 8688 N·m on the half-shaft; its law carries 7814 N·m".
+fn needs(subject: &str, equations: &EquationsOfMotion, overload: &Overload) -> String {
+    let shafts = names(equations, &overload.connections).join(" and ");
+    let Some(needed) = overload.asked.map(f64::abs) else {
+        return format!(
+            "{subject}: no stable state of {shafts}, which share their torque, was found"
+        );
+    };
+    let (on, laws) = match overload.connections.len() {
+        1 => (format!("the {shafts}"), ("its law", "carries", "holds")),
+        _ => (format!("{shafts} together"), ("their laws", "carry", "hold")),
+    };
+    let carries = overload.limit.map(|limit| limit.torque.abs());
+    let (asked, limit) = pair(needed, carries.unwrap_or(0.0));
+    let carried = if carries.is_some() {
+        format!("{} {limit}", laws.1)
+    } else {
+        format!("{} no such torque in a stable state", laws.2)
+    };
+    format!("{subject} needs {asked} on {on}; {} {carried}", laws.0)
 }
 
 /// Two torques with as few digits as tell them apart.
@@ -202,13 +223,10 @@ pub(crate) fn overload_message(
         _ if load.is_empty() => "the mean torque".to_owned(),
         _ => format!("the mean torque{load}"),
     };
-    let Some(overload) = states.overload else {
-        return format!("{subject}: no stable state was found");
-    };
-    let name = equations.connections[overload.connection].name.clone();
-    let required: Named<f64> = [(name.clone(), overload.asked)].into_iter().collect();
-    let carries = overload.limit.map(|limit| limit.torque.abs());
-    needs(&subject, Some(&name), &required, carries)
+    match &states.overload {
+        Some(overload) => needs(&subject, equations, overload),
+        None => format!("{subject}: no stable state was found"),
+    }
 }
 
 /// Points on a torque-twist curve.

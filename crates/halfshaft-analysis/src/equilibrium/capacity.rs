@@ -4,15 +4,19 @@
 //! first time: theory 2, `T_max = (2/3) k1 sqrt(k1 / (3 |k3|))` for a softening cubic.
 
 use halfshaft_dynamics::TorqueLaw;
-use halfshaft_numerics::polynomial::Multiplicity;
+use halfshaft_numerics::polynomial::{Multiplicity, Polynomial};
 use halfshaft_results::{Limit, ShaftCapacity};
 
 use super::polynomial_of;
 
 /// Limits of a law in both directions.
 pub(crate) fn capacity(law: &TorqueLaw) -> ShaftCapacity {
-    let law_polynomial = polynomial_of(law).polynomial();
-    let slope = law_polynomial.derivative();
+    capacity_of(&polynomial_of(law).polynomial())
+}
+
+/// Limits of the torque `law(twist)` in both directions.
+pub(super) fn capacity_of(law: &Polynomial) -> ShaftCapacity {
+    let slope = law.derivative();
     // A slope that only touches zero goes on rising: no limit.
     let turning: Vec<f64> = slope
         .real_roots()
@@ -20,7 +24,7 @@ pub(crate) fn capacity(law: &TorqueLaw) -> ShaftCapacity {
         .filter(|root| root.multiplicity == Multiplicity::Simple)
         .map(|root| root.value)
         .collect();
-    let limit = |twist: f64| Limit { torque: law.torque(twist), twist };
+    let limit = |twist: f64| Limit { torque: law.evaluate(twist), twist };
     let falls_at_once = slope.evaluate(0.0) <= 0.0 && !rises_from_zero(law);
     if falls_at_once {
         let none = Some(limit(0.0));
@@ -33,9 +37,8 @@ pub(crate) fn capacity(law: &TorqueLaw) -> ShaftCapacity {
 
 /// Whether a law without linear stiffness still grows from zero: its first term is odd and
 /// positive.
-fn rises_from_zero(law: &TorqueLaw) -> bool {
-    let coefficients = polynomial_of(law).coefficients();
-    let first = coefficients.iter().enumerate().skip(1).find(|(_, k)| **k != 0.0);
+fn rises_from_zero(law: &Polynomial) -> bool {
+    let first = law.coefficients().iter().enumerate().skip(1).find(|(_, k)| **k != 0.0);
     first.is_some_and(|(power, k)| power % 2 == 1 && *k > 0.0)
 }
 

@@ -13,10 +13,10 @@
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::dense::{Matrix, symmetric_eigen};
 use halfshaft_numerics::newton;
-use halfshaft_numerics::polynomial::Polynomial;
+use halfshaft_numerics::polynomial::{Multiplicity, Polynomial, Root};
 
-use super::capacity::capacity;
-use super::{Overload, polynomial_of};
+use super::capacity::{capacity, capacity_of};
+use super::{Overload, Shared, polynomial_of};
 use crate::error::{AnalysisError, Doing};
 
 /// Tree shafts that depend on each other.
@@ -173,15 +173,10 @@ impl Cluster {
     ) -> Result<(Vec<Balanced>, bool), AnalysisError> {
         if self.members.len() == 1 {
             let law = self.single_law(equations);
-            let roots = law.add(&Polynomial::new([-self.asked[0]])).real_roots();
-            let slope = law.derivative();
-            let balanced = |twist: f64| {
-                let terms = slope.coefficients().iter().rev();
-                let size = terms.fold(0.0, |sum, k| sum * twist.abs() + k.abs());
-                let stable = slope.evaluate(twist) > VANISHING * size;
-                Balanced { twists: vec![twist], stable }
-            };
-            return Ok((roots.into_iter().map(|root| balanced(root.value)).collect(), true));
+            let rest = law.add(&Polynomial::new([-self.asked[0]]));
+            let balanced =
+                |root: Root| Balanced { twists: vec![root.value], stable: holds(&rest, root) };
+            return Ok((rest.real_roots().into_iter().map(balanced).collect(), true));
         }
         let linear = self.laws().all(|index| equations.connections[index].law.is_linear());
         Ok((self.search(equations)?, linear))
@@ -302,13 +297,41 @@ impl Cluster {
         }
     }
 
-    /// What a cluster without any stable twist says about it.
-    pub(super) fn overload(&self, equations: &EquationsOfMotion) -> Option<Overload> {
-        let (connection, asked) = (*self.connections.first()?, *self.asked.first()?);
-        let limits = capacity(&equations.connections[connection].law);
-        let limit = if asked >= 0.0 { limits.positive } else { limits.negative };
-        Some(Overload { connection, asked, limit })
+    /// The shafts of a cluster in which several share a torque.
+    pub(super) fn shared(&self, equations: &EquationsOfMotion) -> Option<Shared> {
+        let parallel = self.members.len() == 1;
+        (!self.loops.is_empty()).then(|| Shared {
+            connections: self.laws().collect(),
+            asked: parallel.then(|| self.asked[0]),
+            capacity: parallel.then(|| capacity_of(&self.single_law(equations))),
+        })
     }
+
+    /// What a cluster without any stable twist says about it.
+    pub(super) fn overload(&self, equations: &EquationsOfMotion) -> Overload {
+        let connections = self.laws().collect();
+        if self.members.len() > 1 {
+            return Overload { connections, asked: None, limit: None };
+        }
+        let asked = self.asked[0];
+        let limits = capacity_of(&self.single_law(equations));
+        let limit = if asked >= 0.0 { limits.positive } else { limits.negative };
+        Overload { connections, asked: Some(asked), limit }
+    }
+}
+
+/// Whether a root of torque less load is an equilibrium that holds: the torque rises through it.
+fn holds(rest: &Polynomial, root: Root) -> bool {
+    let slope = rest.derivative();
+    let terms = slope.coefficients().iter().rev();
+    let size = terms.fold(0.0, |sum, k| sum * root.value.abs() + k.abs());
+    let rise = slope.evaluate(root.value);
+    if rise.abs() > VANISHING * size {
+        return rise > 0.0;
+    }
+    // Without a tangent stiffness the next terms decide: a cubic well holds, the top of a law not.
+    let beside = root.value + 1e-3 * if root.value == 0.0 { 1.0 } else { root.value.abs() };
+    root.multiplicity == Multiplicity::Simple && rest.evaluate(beside) > 0.0
 }
 
 /// Starts of the search for each unknown.

@@ -10,7 +10,7 @@ mod clusters;
 mod running;
 
 use halfshaft_dynamics::{EquationsOfMotion, TorqueLaw};
-use halfshaft_results::Limit;
+use halfshaft_results::{Limit, ShaftCapacity};
 
 use crate::error::AnalysisError;
 use crate::modal::elastic::ElasticSpace;
@@ -30,13 +30,24 @@ pub(crate) struct RestState {
     pub(crate) stable: bool,
 }
 
-/// A shaft whose law does not reach the torque asked of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A shaft, or several that share a torque.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Shared {
+    /// Indices of the connections; torques and twists are in the sense of the first.
+    pub(crate) connections: Vec<usize>,
+    /// Torque that they must carry together, N·m; `None` where a loop leaves it undecided.
+    pub(crate) asked: Option<f64>,
+    /// Limits of what they carry together.
+    pub(crate) capacity: Option<ShaftCapacity>,
+}
+
+/// Shafts whose laws do not reach the torque asked of them.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Overload {
-    /// Index of the connection.
-    pub(crate) connection: usize,
-    /// Torque asked, N·m.
-    pub(crate) asked: f64,
+    /// Indices of the connections that carry the torque together.
+    pub(crate) connections: Vec<usize>,
+    /// Torque asked, N·m; `None` where a loop leaves it undecided.
+    pub(crate) asked: Option<f64>,
     /// Where the law ends in that direction.
     pub(crate) limit: Option<Limit>,
 }
@@ -46,10 +57,14 @@ pub(crate) struct Overload {
 pub(crate) struct RestStates {
     /// Those nearer to zero twist first.
     pub(crate) states: Vec<RestState>,
-    /// Whether the list is proven to be complete.
-    pub(crate) complete: bool,
+    /// Whether every part of the line was solved with proof that no state is missed.
+    pub(crate) proven: bool,
+    /// How many states there are, where that is more than are listed.
+    pub(crate) left_out: Option<f64>,
     /// Torque asked of each connection where statics alone decides it, N·m.
     pub(crate) asked: Vec<Option<f64>>,
+    /// Shafts that share a torque.
+    pub(crate) shared: Vec<Shared>,
     /// How the line runs.
     pub(crate) running: RunningState,
     /// The first shaft that cannot carry what is asked of it.
@@ -57,6 +72,11 @@ pub(crate) struct RestStates {
 }
 
 impl RestStates {
+    /// Whether the list is proven to be complete.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.proven && self.left_out.is_none()
+    }
+
     /// The stable state nearest to zero twist.
     pub(crate) fn primary(&self) -> Option<&RestState> {
         self.states.iter().find(|state| state.stable)
@@ -67,8 +87,18 @@ impl RestStates {
 /// of their number.
 const MOST_STATES: usize = 1000;
 
-/// Finds all states of rest of a line.
+/// Finds all states of rest of a line, or the stable ones and the nearest of the others where
+/// there are too many to list.
 pub(crate) fn find(equations: &EquationsOfMotion) -> Result<RestStates, AnalysisError> {
+    find_up_to(equations, MOST_STATES)
+}
+
+/// Finds the stable state nearest to zero twist (the only one in the list), or why there is none.
+pub(crate) fn find_stable(equations: &EquationsOfMotion) -> Result<RestStates, AnalysisError> {
+    find_up_to(equations, 1)
+}
+
+fn find_up_to(equations: &EquationsOfMotion, most: usize) -> Result<RestStates, AnalysisError> {
     // Forces that are left for the shafts to carry.
     let running = RunningState::of(equations);
     let clusters = clusters::split(equations, &running.forces);
@@ -78,49 +108,66 @@ pub(crate) fn find(equations: &EquationsOfMotion) -> Result<RestStates, Analysis
             asked[connection] = Some(torque);
         }
     }
+    let shared = clusters.iter().filter_map(|cluster| cluster.shared(equations)).collect();
 
     // Twists of each independent part, then every combination of them.
-    let mut complete = true;
-    let mut combinations =
-        vec![Combination { tree_twists: vec![0.0; equations.network.tree.len()], stable: true }];
+    let (mut proven, mut count) = (true, 1.0);
+    let none = vec![0.0; equations.network.tree.len()];
+    let mut combinations = vec![Combination { tree_twists: none, stable: true, size: 0.0 }];
     let mut overload = None;
     for cluster in &clusters {
-        let (solutions, proven) = cluster.solve(equations)?;
-        complete &= proven && combinations.len() * solutions.len() <= MOST_STATES;
-        if overload.is_none() && !solutions.iter().any(|solution| solution.stable) {
-            overload = cluster.overload(equations);
+        let (solutions, all) = cluster.solve(equations)?;
+        proven &= all;
+        #[expect(clippy::cast_precision_loss, reason = "a few roots each")]
+        {
+            count *= solutions.len() as f64;
         }
-        combinations = combine(&combinations, cluster.members(), &solutions);
+        if overload.is_none() && !solutions.iter().any(|solution| solution.stable) {
+            overload = Some(cluster.overload(equations));
+        }
+        combinations = combine(&combinations, cluster.members(), &solutions, most);
     }
+    #[expect(clippy::cast_precision_loss, reason = "bounded by the list's limit")]
+    let left_out = (count > combinations.len() as f64).then_some(count);
 
-    let mut states: Vec<RestState> =
+    combinations.sort_by(|a, b| a.size.total_cmp(&b.size));
+    let states: Vec<RestState> =
         combinations.iter().map(|combination| rest_state(equations, combination)).collect();
-    let size = |state: &RestState| state.twists.iter().map(|x| x.abs()).sum::<f64>();
-    states.sort_by(|a, b| size(a).total_cmp(&size(b)));
-    Ok(RestStates { states, complete, asked, running, overload })
+    Ok(RestStates { states, proven, left_out, asked, shared, running, overload })
 }
 
 /// Twists of the spanning tree, gathered cluster by cluster.
 struct Combination {
     tree_twists: Vec<f64>,
     stable: bool,
+    /// Sum of the sizes of the twists, rad.
+    size: f64,
 }
 
-/// Every old combination with every solution of one more cluster.
+/// Every old combination with every solution of one more cluster; of too many the stable ones
+/// first, and then those nearest to zero twist. Sizes add up, so no later cluster can bring back
+/// what is dropped here.
 fn combine(
     old: &[Combination],
     members: &[usize],
     solutions: &[clusters::Balanced],
+    most: usize,
 ) -> Vec<Combination> {
     let with = |base: &Combination, solution: &clusters::Balanced| {
         let mut tree_twists = base.tree_twists.clone();
         for (member, twist) in members.iter().zip(&solution.twists) {
             tree_twists[*member] = *twist;
         }
-        Combination { tree_twists, stable: base.stable && solution.stable }
+        let size = base.size + solution.twists.iter().map(|x| x.abs()).sum::<f64>();
+        Combination { tree_twists, stable: base.stable && solution.stable, size }
     };
     let pairs = old.iter().flat_map(|base| solutions.iter().map(move |s| with(base, s)));
-    pairs.take(MOST_STATES).collect()
+    let mut all: Vec<Combination> = pairs.collect();
+    if all.len() > most {
+        all.sort_by(|a, b| b.stable.cmp(&a.stable).then(a.size.total_cmp(&b.size)));
+        all.truncate(most);
+    }
+    all
 }
 
 fn rest_state(equations: &EquationsOfMotion, combination: &Combination) -> RestState {

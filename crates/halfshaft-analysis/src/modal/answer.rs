@@ -19,7 +19,10 @@ pub(crate) fn solve(
     question: &ModesQuestion,
 ) -> Result<ModesResult, AnalysisError> {
     let equations = EquationsOfMotion::new(line)?;
-    let states = equilibrium::find(&equations)?;
+    let states = match question.equilibrium {
+        Some(_) => equilibrium::find(&equations)?,
+        None => equilibrium::find_stable(&equations)?,
+    };
     let state = choose_equilibrium(line, &equations, &states, question.equilibrium)?;
     let undamped = ElasticSpace::new(&equations).modes(&equations, &state.twists)?;
     let pairs = damped(&equations, &undamped)?;

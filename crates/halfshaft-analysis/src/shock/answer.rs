@@ -42,7 +42,7 @@ pub(crate) fn solve(
         // The initial state is the disturbance.
         equations.excitation.sources.iter_mut().for_each(|source| source.pulse = None);
     }
-    let states = equilibrium::find(&equations)?;
+    let states = equilibrium::find_stable(&equations)?;
     let rest = choose_equilibrium(line, &equations, &states, None)?.clone();
     if question.initial.is_empty() && !has_pulse(&equations) {
         return Err(AnalysisError::NoDisturbance);
@@ -209,7 +209,7 @@ impl ShockProblem<'_> {
     }
 
     /// A single equation must be disturbed too: a pulse on a held end is none.
-    fn check_disturbed(
+    pub(crate) fn check_disturbed(
         &self,
         single: &SingleEquation,
         x: f64,

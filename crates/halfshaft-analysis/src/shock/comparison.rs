@@ -41,6 +41,9 @@ pub(crate) fn add(
         let Ok(single) = single::reduce(&problem.equations, &problem.rest, equation) else {
             continue;
         };
+        if problem.check_disturbed(&single, start.0, start.1).is_err() {
+            continue;
+        }
         accounts.extend(accounts_of(problem, &single, start, observer)?);
     }
     let rows = accounts.iter().map(|account| row(account, &accounts)).collect();
@@ -91,8 +94,8 @@ fn full_account(
     };
     let metrics = shafts.into_values().next().unwrap_or_default();
     let metrics = ShaftMetrics {
-        first_peak: -metrics.first_peak,
-        first_rate_peak: -metrics.first_rate_peak,
+        first_peak: metrics.first_peak.map(|peak| -peak),
+        first_rate_peak: metrics.first_rate_peak.map(|peak| -peak),
         ..metrics
     };
     Ok(Account {
@@ -160,11 +163,11 @@ fn integrated(
 fn row(account: &Account, accounts: &[Account]) -> MethodRow {
     let reference =
         account.reference.and_then(|name| accounts.iter().find(|other| other.method == name));
-    let error = |of: fn(&ShaftMetrics) -> f64| {
-        let reference = of(&reference?.metrics);
-        (reference != 0.0).then(|| of(&account.metrics) / reference - 1.0)
+    let error = |of: fn(&ShaftMetrics) -> Option<f64>| {
+        let reference = of(&reference?.metrics).filter(|reference| *reference != 0.0)?;
+        Some(of(&account.metrics)? / reference - 1.0)
     };
-    let phase_error = reference.and_then(|reference| Some(phase(account)? - phase(reference)?));
+    let phase_error = reference.and_then(|reference| phase_error(account, reference));
     MethodRow {
         method: account.method.clone(),
         equation: account.equation.clone(),
@@ -183,7 +186,7 @@ fn row(account: &Account, accounts: &[Account]) -> MethodRow {
 
 /// Largest distance between two histories over the first peak of the reference.
 fn largest_difference(account: &Account, reference: &Account) -> Option<f64> {
-    let peak = reference.metrics.first_peak.abs();
+    let peak = reference.metrics.first_peak?.abs();
     let apart = |point: &TracePoint| Some((value_at(account, point.time)? - point.value).abs());
     let largest = reference.trace.iter().filter_map(apart).fold(0.0, f64::max);
     (peak > 0.0).then(|| largest / peak)
@@ -200,11 +203,20 @@ fn value_at(account: &Account, time: f64) -> Option<f64> {
     Some(between(from, point, time).value)
 }
 
-/// Phase of the vibration at [`PHASE_TIME`], rad: the angle that `(θ, -θ'/ω)` has turned, so
-/// that a whole vibration counts 2π. `None` where the history is shorter.
-fn phase(account: &Account) -> Option<f64> {
+/// By how much an account runs ahead of its reference at [`PHASE_TIME`], rad; whole vibrations
+/// count 2π.
+fn phase_error(account: &Account, reference: &Account) -> Option<f64> {
+    let (first, turned) = phase(account)?;
+    let (reference_first, reference_turned) = phase(reference)?;
+    // Both begin at nearly the same angle, which may lie on either side of ±π.
+    Some(wrapped(first - reference_first) + (turned - reference_turned))
+}
+
+/// Phase of the vibration: the angle of `(θ, -θ'/ω)` at first, and how far it has turned until
+/// [`PHASE_TIME`], rad. `None` where the history is shorter.
+fn phase(account: &Account) -> Option<(f64, f64)> {
     let mut turned = 0.0;
-    let mut before: Option<f64> = None;
+    let mut angles: Option<(f64, f64)> = None;
     for (index, point) in account.trace.iter().enumerate() {
         let at_end = point.time >= PHASE_TIME;
         let point = if at_end {
@@ -217,12 +229,11 @@ fn phase(account: &Account) -> Option<f64> {
             continue; // at rest before the disturbance
         }
         let angle = (-point.slope / account.omega).atan2(point.value);
-        // The first angle counts too: methods may start apart.
-        let change = before.map_or(angle, |before| wrapped(angle - before));
-        turned += change;
-        before = Some(angle);
+        let (first, before) = angles.unwrap_or((angle, angle));
+        turned += wrapped(angle - before);
+        angles = Some((first, angle));
         if at_end {
-            return Some(turned);
+            return Some((first, turned));
         }
     }
     None

@@ -62,7 +62,7 @@ pub(crate) fn final_twists(
         source.mean +=
             source.pulse.as_ref().map_or(0.0, halfshaft_model::elements::Pulse::final_torque);
     }
-    let states = equilibrium::find(&after)?;
+    let states = equilibrium::find_stable(&after)?;
     Ok(states.primary().map_or_else(|| before.to_vec(), |state| state.twists.clone()))
 }
 

@@ -23,15 +23,15 @@ pub(crate) struct Response<'t> {
     pub(crate) static_torque: f64,
 }
 
-/// Part of the first peak within which the twist has settled.
+/// Part of the largest peak within which the twist has settled.
 const SETTLED: f64 = 0.05;
 /// Turning points smaller than this part of the largest say nothing about frequency.
 const SMALLEST: f64 = 1e-6;
 
 /// Metrics of a response.
 pub(crate) fn metrics(response: &Response<'_>) -> ShaftMetrics {
-    let first = response.turning.first().copied();
-    let first_rate = response.rate_turning.first().copied();
+    let first = first_beyond_rounding(response.turning, response.rest);
+    let first_rate = first_beyond_rounding(response.rate_turning, 0.0);
     let (oscillation_frequency, decay_rate) = oscillation(response);
     let damping_ratio = match (oscillation_frequency, decay_rate) {
         (Some(frequency), Some(decay)) => Some(decay / frequency.hypot(decay)),
@@ -39,10 +39,10 @@ pub(crate) fn metrics(response: &Response<'_>) -> ShaftMetrics {
     };
     let loaded = response.static_torque.abs() > 1e-9 * response.peak_torque.value.abs();
     ShaftMetrics {
-        first_peak: first.map_or(0.0, |point| point.value - response.rest),
-        first_peak_time: first.map_or(0.0, |point| point.time),
-        first_rate_peak: first_rate.map_or(0.0, |point| point.value),
-        first_rate_peak_time: first_rate.map_or(0.0, |point| point.time),
+        first_peak: first.map(|point| point.value - response.rest),
+        first_peak_time: first.map(|point| point.time),
+        first_rate_peak: first_rate.map(|point| point.value),
+        first_rate_peak_time: first_rate.map(|point| point.time),
         peak_torque: response.peak_torque.value,
         peak_torque_time: response.peak_torque.time,
         static_torque: response.static_torque,
@@ -52,6 +52,13 @@ pub(crate) fn metrics(response: &Response<'_>) -> ShaftMetrics {
         decay_rate,
         damping_ratio,
     }
+}
+
+/// The first turning point that is more than rounding about the rest before a late disturbance.
+fn first_beyond_rounding(turning: &[TurningPoint], rest: f64) -> Option<TurningPoint> {
+    let size = |point: &TurningPoint| (point.value - rest).abs();
+    let largest = turning.iter().map(size).fold(0.0, f64::max);
+    turning.iter().copied().find(|point| size(point) > SMALLEST * largest)
 }
 
 /// Frequency and decay of the free vibration, by least squares through its turning points:
@@ -88,17 +95,17 @@ fn slope(points: &[(f64, f64)]) -> Option<f64> {
     (spread > 0.0).then(|| shared / spread)
 }
 
-/// Last time at which the twist is farther from rest than a part of the first peak; `None`
+/// Last time at which the twist is farther from rest than a part of its largest peak; `None`
 /// where that may still come.
 fn settling_time(response: &Response<'_>) -> Option<f64> {
-    let first = response.turning.first()?;
-    let band = SETTLED * (first.value - response.rest).abs();
+    let peaks = response.turning.iter().map(|point| (point.value - response.rest).abs());
+    let band = SETTLED * peaks.reduce(f64::max)?;
     let outside = |point: &TracePoint| (point.value - response.rest).abs() > band;
     let last = response.trace.iter().rposition(outside)?;
     let next = response.trace.get(last + 1)?;
     // One more quiet half period is needed to call it settled.
     let quiet = response.trace.last()?.time - next.time;
-    let half_period = response.turning.windows(2).map(|p| p[1].time - p[0].time).next()?;
+    let half_period = response.turning.windows(2).map(|p| p[1].time - p[0].time).next_back()?;
     (quiet > half_period).then(|| crossing(&response.trace[last], next, response.rest, band))
 }
 

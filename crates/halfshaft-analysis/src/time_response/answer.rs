@@ -4,11 +4,14 @@ use halfshaft_dynamics::{Active, EquationsOfMotion, Motion};
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, SimulateQuestion, Start, Verb};
 use halfshaft_numerics::observer::Observer;
-use halfshaft_results::{Column, EnergyBalance, Header, HistoryMetrics, HistoryResult, Named};
+use halfshaft_results::{
+    Column, EnergyBalance, Header, HistoryMetrics, HistoryResult, Named, Reason,
+};
 
 use super::initial::start_state;
 use super::recorder::Recorder;
 use super::run::{Run, RunSettings, run};
+use crate::equilibrium;
 use crate::error::AnalysisError;
 use crate::header::header;
 
@@ -46,6 +49,10 @@ pub(crate) fn solve(
              --frequency"
                 .to_owned(),
         );
+    }
+    let states = equilibrium::find_stable(&equations)?;
+    if states.primary().is_none() {
+        header.warnings.push(equilibrium::overload_message(line, &equations, &states));
     }
     energy_warning(&mut header, &run.energy, question.tolerance);
     let metrics = HistoryMetrics {
@@ -97,8 +104,10 @@ pub(crate) fn channel_metrics(recorder: &Recorder<'_>) -> Named<halfshaft_result
 
 /// Warns where the energy does not close to what the tolerance promises.
 pub(crate) fn energy_warning(header: &mut Header, energy: &EnergyBalance, tolerance: f64) {
-    // Errors of many steps add up; a thousand tolerances is where they begin to matter.
-    if energy.relative_residual > 1e3 * tolerance.max(1e-15) {
+    // Errors of many steps add up; a thousand tolerances is where they begin to matter. A motion
+    // that runs away has no scale to judge them by.
+    let lost = header.termination.reason == Reason::RunsAway;
+    if !lost && energy.relative_residual > 1e3 * tolerance.max(1e-15) {
         header.warnings.push(format!(
             "the energy balance is open by {:.2e} of the energy turned over; ask for a tighter \
              --tolerance",

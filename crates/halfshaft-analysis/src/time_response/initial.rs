@@ -24,7 +24,7 @@ pub(crate) fn start_state(
     let mut state = match start {
         Start::Rest => motion.zero_state(),
         Start::Equilibrium => {
-            let states = equilibrium::find(equations)?;
+            let states = equilibrium::find_stable(equations)?;
             equilibrium_state(line, motion, &states)?
         }
     };

@@ -124,9 +124,16 @@ impl<'l> Recorder<'l> {
     }
 
     /// Takes a jump of the state at the start of a step: what follows does not join what came
-    /// before.
+    /// before. A sample of the history at that very time is the state after the jump.
     pub(crate) fn jump(&mut self, dense: &DenseStep<'_>, time: f64) {
         let sample = self.sample(dense, time);
+        if self.next > 0 && self.grid[self.next - 1] == time {
+            for column in &mut self.history {
+                column.pop();
+            }
+            self.next -= 1;
+            self.keep(&sample);
+        }
         self.measure(&sample);
         self.before = Some(sample);
     }

@@ -12,6 +12,7 @@ use halfshaft_results::{EnergyBalance, Reason, Termination};
 
 use super::channels::Channels;
 use super::recorder::Recorder;
+use crate::equilibrium;
 use crate::error::{AnalysisError, Doing};
 
 /// What to run.
@@ -65,6 +66,8 @@ pub(crate) fn run<'l>(
     let breaks: Vec<f64> = equations.excitation.breaks().into_iter().filter(|t| *t > 0.0).collect();
     // The break and the step after it are told apart by two closures that share this flag.
     let jumped = Cell::new(false);
+    let reaches = reaches(equations);
+    let mut lost: Option<(usize, f64)> = None;
     let mut count = 0_u64;
     let finish = integrate(
         &mut integrator,
@@ -82,6 +85,10 @@ pub(crate) fn run<'l>(
                 recorder.jump(&dense, from);
             }
             recorder.step(&dense, from, to);
+            lost = reaches.iter().copied().find(|(tree, reach)| step.state()[*tree].abs() > *reach);
+            if lost.is_some() {
+                return ControlFlow::Break(());
+            }
             count += 1;
             if count.is_multiple_of(LOOK_EVERY) {
                 observer.progress(to / settings.duration);
@@ -93,7 +100,10 @@ pub(crate) fn run<'l>(
         },
     );
     let reached = integrator.time();
-    let termination = termination(finish, reached)?;
+    let termination = match lost {
+        Some((tree, reach)) => ran_away(equations, tree, reach, reached),
+        None => termination(finish, reached)?,
+    };
     let statistics = integrator.statistics();
     let last = integrator.state().to_vec();
     let mut motion = integrator.into_system();
@@ -104,6 +114,30 @@ pub(crate) fn run<'l>(
         evaluations: statistics.evaluations as u64,
         termination,
     })
+}
+
+/// Twists of this many times the limit of a law have nothing to hold them back.
+const LOST: f64 = 100.0;
+
+/// Tree twists whose laws have a limit on both sides, and how far is too far.
+fn reaches(equations: &EquationsOfMotion) -> Vec<(usize, f64)> {
+    let reach = |shaft: usize| {
+        let limit = equilibrium::capacity(&equations.connections[shaft].law);
+        Some(LOST * limit.positive?.twist.abs().max(limit.negative?.twist.abs()))
+    };
+    let tree = equations.network.tree.iter().enumerate();
+    tree.filter_map(|(index, edge)| Some((index, reach(edge.shaft)?)))
+        .filter(|(_, reach)| *reach > 0.0)
+        .collect()
+}
+
+fn ran_away(equations: &EquationsOfMotion, tree: usize, reach: f64, time: f64) -> Termination {
+    let name = &equations.connections[equations.network.tree[tree].shaft].name;
+    let detail = format!(
+        "the motion runs away: at t = {time:.6} s the {name} is twisted past {reach:.4} rad, {LOST} \
+         times the limit of its law, and nothing holds it back; see `halfshaft static`"
+    );
+    Termination::early(Reason::RunsAway, detail)
 }
 
 fn new_recorder<'l>(equations: &'l EquationsOfMotion, settings: &RunSettings) -> Recorder<'l> {

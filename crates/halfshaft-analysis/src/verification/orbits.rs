@@ -52,6 +52,8 @@ pub(crate) struct Verified {
     pub(crate) points: Vec<VerifiedPoint>,
     /// Responses near which no orbit was found.
     pub(crate) missed: Vec<Response>,
+    /// Whether the user stopped the check before its end.
+    pub(crate) cancelled: bool,
 }
 
 /// Checks predicted responses by periodic orbits of the full line; `None` where the orders of the
@@ -66,6 +68,7 @@ pub(crate) fn periodic(
     let mut verified = Verified::default();
     for point in points {
         if observer.cancelled() {
+            verified.cancelled = true;
             break;
         }
         match check(equations, mode, point, base)? {

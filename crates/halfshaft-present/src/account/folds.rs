@@ -103,8 +103,12 @@ pub(crate) fn thresholds(result: &FoldsResult) -> Vec<String> {
 
 fn without_cusp(result: &FoldsResult, name: &str, own: Option<String>) -> String {
     let tail = own.map_or_else(String::new, |own| format!("; {own}"));
+    let asked = result.header.settings.get("frequency").is_some_and(|range| !range.is_null());
+    let speeds = if asked { " at the excitation speeds asked for" } else { "" };
     if result.curves.is_empty() {
-        format!("No response folds in the range of the {name}{tail}.")
+        format!("No response folds{speeds} in the range of the {name}{tail}.")
+    } else if asked {
+        format!("The response folds{speeds}; no cusp lies there{tail}.")
     } else {
         format!("The response folds over the whole range of the {name}, without a cusp{tail}.")
     }

@@ -124,9 +124,9 @@ fn tones(rows: &[MethodRow]) -> impl Iterator<Item = Tone> + '_ {
 fn peaks(rows: &[MethodRow]) -> Grid {
     Grid::new("What each method answers")
         .words("method", rows.iter().map(|row| &row.method))
-        .numbers("first peak", "rad", 5, rows.iter().map(|row| Some(row.first_peak)))
-        .numbers("at", "s", 4, rows.iter().map(|row| Some(row.first_peak_time)))
-        .numbers("first rate peak", "rad/s", 5, rows.iter().map(|row| Some(row.first_rate_peak)))
+        .numbers("first peak", "rad", 5, rows.iter().map(|row| row.first_peak))
+        .numbers("at", "s", 4, rows.iter().map(|row| row.first_peak_time))
+        .numbers("first rate peak", "rad/s", 5, rows.iter().map(|row| row.first_rate_peak))
         .numbers("frequency", "rad/s", 5, rows.iter().map(|row| row.oscillation_frequency))
         .numbers("decay", "1/s", 4, rows.iter().map(|row| row.decay_rate))
         .with_tones(tones(rows))

@@ -57,6 +57,10 @@ pub(crate) fn peak(result: &ResonanceResult, index: usize) -> String {
         1.0 => String::new(),
         order => format!(" of order {}", number(order, 4)),
     };
+    let range = range(result);
+    if frequency < range.0 || frequency > range.1 {
+        return outside(result, scaling, frequency);
+    }
     let mut text =
         format!("Excitation{order} drives the {shaft} most at {}", frequency_words(frequency));
     if let Some(rho) = value("rho") {
@@ -66,6 +70,34 @@ pub(crate) fn peak(result: &ResonanceResult, index: usize) -> String {
         text += &format!(", its torque by ±{}", quantity(torque, 5, "N·m"));
     }
     format!("{text}.")
+}
+
+/// The excitation speeds of the answer, rad/s.
+fn range(result: &ResonanceResult) -> (f64, f64) {
+    let speeds = result.branches.iter().flat_map(|branch| branch.values("frequency"));
+    speeds.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), speed| {
+        (least.min(*speed), most.max(*speed))
+    })
+}
+
+/// What is said of a mode whose peak lies outside the range asked for.
+fn outside(result: &ResonanceResult, scaling: &ModeScaling, peak: f64) -> String {
+    let rows = result.branches.iter().flat_map(|branch| {
+        branch.values("rho").iter().copied().zip(branch.values("frequency").iter().copied())
+    });
+    let peak = frequency_words(peak);
+    match rows.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        Some((rho, speed)) => format!(
+            "In the range asked for, the twist of the {} swings by at most ±{}, at {}; the resonance \
+             itself lies outside it, at {peak}.",
+            plain(&scaling.shaft),
+            crate::words::angle(rho),
+            frequency_words(speed)
+        ),
+        None => {
+            format!("There is no response in the range asked for; the resonance lies at {peak}.")
+        }
+    }
 }
 
 /// How far the response is from folding.

@@ -38,24 +38,25 @@ pub(crate) fn main_shaft<'r>(
 
 fn first_peak(name: &str, metrics: &ShaftMetrics) -> Vec<String> {
     let shaft = plain(name);
-    if metrics.first_peak == 0.0 && metrics.first_peak_time == 0.0 {
+    let (Some(peak), Some(time)) = (metrics.first_peak, metrics.first_peak_time) else {
         return vec![format!(
             "The twist of the {shaft} has no turning point in the time computed."
         )];
-    }
-    vec![
-        format!(
-            "The twist of the {shaft} first turns round {} after the start, {} beyond where it comes \
-             to rest.",
-            quantity(metrics.first_peak_time, 4, "s"),
-            crate::words::angle(metrics.first_peak)
-        ),
-        format!(
+    };
+    let mut sentences = vec![format!(
+        "The twist of the {shaft} first turns round {} after the start, {} beyond where it comes \
+         to rest.",
+        quantity(time, 4, "s"),
+        crate::words::angle(peak)
+    )];
+    if let (Some(peak), Some(time)) = (metrics.first_rate_peak, metrics.first_rate_peak_time) {
+        sentences.push(format!(
             "Its rate peaks first at {}, after {}.",
-            quantity(metrics.first_rate_peak, 5, "rad/s"),
-            quantity(metrics.first_rate_peak_time, 4, "s")
-        ),
-    ]
+            quantity(peak, 5, "rad/s"),
+            quantity(time, 4, "s")
+        ));
+    }
+    sentences
 }
 
 /// The largest torque and what it is of the torque before.
@@ -89,8 +90,10 @@ pub(crate) fn settling(metrics: &ShaftMetrics) -> String {
         _ => "It turns round too rarely to tell a frequency".to_owned(),
     };
     let settled = metrics.settling_time.map_or_else(
-        || "it has not settled within 5 % of the first peak in the time computed".to_owned(),
-        |time| format!("it stays within 5 % of the first peak from {} on", quantity(time, 4, "s")),
+        || "it has not settled within 5 % of its largest peak in the time computed".to_owned(),
+        |time| {
+            format!("it stays within 5 % of its largest peak from {} on", quantity(time, 4, "s"))
+        },
     );
     format!("{rings}; {settled}.")
 }
@@ -102,8 +105,8 @@ fn table(result: &HistoryResult) -> Grid {
     let maybe = |of: fn(&ShaftMetrics) -> Option<f64>| rows().map(of);
     Grid::new("Each shaft")
         .words("shaft", result.metrics.shafts.keys())
-        .numbers("first peak", "rad", 5, values(|m| m.first_peak))
-        .numbers("at", "s", 4, values(|m| m.first_peak_time))
+        .numbers("first peak", "rad", 5, maybe(|m| m.first_peak))
+        .numbers("at", "s", 4, maybe(|m| m.first_peak_time))
         .numbers("peak torque", "N·m", 6, values(|m| m.peak_torque))
         .numbers("at", "s", 4, values(|m| m.peak_torque_time))
         .numbers("before", "N·m", 6, values(|m| m.static_torque))

@@ -1,6 +1,9 @@
 //! What is told of the states of rest.
 
-use halfshaft_results::{Equilibrium, GearState, Limit, Running, RunningKind, StaticResult};
+use halfshaft_results::{
+    Equilibrium, GearState, Limit, Named, Running, RunningKind, ShaftCapacity, SharedLoad,
+    StaticResult,
+};
 
 use super::{Account, Grid, Tone};
 use crate::words::{MISSING, angle, counted, list, number, plain, quantity, times};
@@ -42,19 +45,37 @@ impl Margin {
     }
 }
 
-/// Every shaft with what it must carry in the model's own gear.
+/// Every shaft, and all that share a torque together, with what it must carry in the model's own
+/// gear.
 pub(crate) fn margins(result: &StaticResult) -> Vec<Margin> {
+    margins_of(result, &result.required_torque, &result.shared)
+}
+
+fn margins_of(result: &StaticResult, alone: &Named<f64>, shared: &[SharedLoad]) -> Vec<Margin> {
     let of = |(shaft, asked): (&String, &f64)| Margin {
         shaft: plain(shaft),
         asked: asked.abs(),
-        carries: limit(result, shaft, *asked),
+        carries: result.capacity.get(shaft).and_then(|capacity| limit(capacity, *asked)),
     };
-    result.required_torque.iter().map(of).collect()
+    let together = |shared: &SharedLoad| {
+        let asked = shared.required_torque?;
+        Some(Margin {
+            shaft: together(shared),
+            asked: asked.abs(),
+            carries: shared.capacity.as_ref().and_then(|capacity| limit(capacity, asked)),
+        })
+    };
+    alone.iter().map(of).chain(shared.iter().filter_map(together)).collect()
 }
 
-/// The limit of a shaft in the direction in which it is loaded, as sizes.
-fn limit(result: &StaticResult, shaft: &str, load: f64) -> Option<Limit> {
-    let capacity = result.capacity.get(shaft)?;
+/// Names of shafts that share a torque.
+fn together(shared: &SharedLoad) -> String {
+    let names: Vec<String> = shared.shafts.iter().map(|name| plain(name)).collect();
+    format!("{} together", list(&names))
+}
+
+/// The limit in the direction of a load, as sizes.
+fn limit(capacity: &ShaftCapacity, load: f64) -> Option<Limit> {
     let limit = if load < 0.0 { capacity.negative } else { capacity.positive }?;
     Some(Limit { torque: limit.torque.abs(), twist: limit.twist.abs() })
 }
@@ -248,16 +269,14 @@ fn gear_verdict(gear: &GearState) -> &'static str {
 
 /// The shaft that gives way in a gear, or the one with the least room.
 pub(crate) fn gear_margin(result: &StaticResult, gear: &GearState) -> Option<Margin> {
-    let margin = |(shaft, asked): (&String, &f64)| Margin {
-        shaft: plain(shaft),
-        asked: asked.abs(),
-        carries: limit(result, shaft, *asked),
-    };
-    let overloaded = gear.overloaded.as_ref();
-    if let Some(entry) = overloaded.and_then(|shaft| gear.required_torque.get_key_value(shaft)) {
-        return Some(margin(entry));
+    let all = margins_of(result, &gear.required_torque, &gear.shared);
+    if let Some(first) = &gear.overloaded {
+        let shared = gear.shared.iter().find(|shared| shared.shafts.first() == Some(first));
+        let name = shared.map_or_else(|| plain(first), together);
+        if let Some(margin) = all.iter().find(|margin| margin.shaft == name) {
+            return Some(margin.clone());
+        }
     }
-    let all: Vec<Margin> = gear.required_torque.iter().map(margin).collect();
     let unlimited = all.iter().all(|margin| margin.carries.is_none());
     if unlimited {
         return all.into_iter().max_by(|a, b| a.asked.total_cmp(&b.asked));

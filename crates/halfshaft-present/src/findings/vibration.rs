@@ -37,7 +37,10 @@ pub(super) fn vibration(report: &ReportResult) -> Option<Finding> {
             );
             Standing::of_margin(room / rho)
         }
-        None => Standing::Safe,
+        None => {
+            text += "; no law has a limit to hold that against";
+            Standing::Open
+        }
     };
     Some(Finding::new(standing, "Resonance", text + "."))
 }

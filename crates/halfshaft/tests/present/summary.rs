@@ -71,10 +71,14 @@ fn every_summary_tells_the_numbers_of_its_answer() {
                     let shaft = &result.metrics.shafts["half-shaft"];
                     assert_shows(
                         number_after(&told, "first turns round"),
-                        shaft.first_peak_time,
+                        shaft.first_peak_time.expect("turns"),
                         4,
                     );
-                    assert_shows(number_after(&told, "after the start,"), shaft.first_peak, 5);
+                    assert_shows(
+                        number_after(&told, "after the start,"),
+                        shaft.first_peak.expect("turns"),
+                        5,
+                    );
                     assert_shows(number_after(&told, "half-shaft peaks at"), shaft.peak_torque, 6);
                     let factor = shaft.dynamic_factor.unwrap();
                     assert_shows(
@@ -93,7 +97,7 @@ fn every_summary_tells_the_numbers_of_its_answer() {
                             "What each method answers",
                             &format!("{}  ", method.method),
                         );
-                        assert_shows(value(cells[0]), method.first_peak, 5);
+                        assert_shows(value(cells[0]), method.first_peak.expect("turns"), 5);
                     }
                 }
                 None => {
