@@ -231,11 +231,9 @@ fn a_silent_torque_can_be_the_axis() {
 #[test]
 fn planes_of_the_scaled_equation_stay_within_its_meaning() {
     let line = oscillator(&[]);
-    for (parameter, torque) in [
-        ("mode.beta=0.001..0.3", true),
-        ("mode.alpha=-2..2", false),
-        ("mode.omega_1=5..40", false),
-    ] {
+    for (parameter, torque) in
+        [("mode.beta=0.001..0.3", true), ("mode.alpha=-2..2", false), ("mode.omega_1=5..40", false)]
+    {
         let result = folds(&line, parameter);
         for curve in &result.curves {
             assert!(curve.values("frequency").iter().all(|speed| *speed > 0.0), "{parameter}");

@@ -264,11 +264,8 @@ fn a_sample_at_the_time_of_an_impulse_is_the_state_after_it() {
                 "[[torque]]\nname = \"t\"\non = \"n0\"\n\
                  pulse = {{ shape = \"impulse\", impulse = 3, start = {start} }}\n"
             );
-        let text_of = QuestionText {
-            duration: some("1s"),
-            step: some("0.125s"),
-            ..QuestionText::default()
-        };
+        let text_of =
+            QuestionText { duration: some("1s"), step: some("0.125s"), ..QuestionText::default() };
         let result = simulate(&line_of(&text, &[]), text_of);
         assert_eq!(result.values("time").len(), 9);
         assert_close(at(&result, "n0.speed", start), 1.5, 1e-12);

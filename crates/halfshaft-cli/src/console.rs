@@ -39,7 +39,9 @@ pub fn complain(failure: &Failure) {
         Failure::Diagnostics(found) => note(&diagnostics::render(found)),
         Failure::Options(errors) => {
             for error in errors {
-                note(&format!("error: --{} \"{}\": {}", error.option, error.text, error.message));
+                let written = Some(&error.text).filter(|text| !text.is_empty());
+                let written = written.map_or_else(String::new, |text| format!(" \"{text}\""));
+                note(&format!("error: --{}{written}: {}", error.option, error.message));
                 hint(Some(&error.hint).filter(|hint| !hint.is_empty()));
             }
         }

@@ -74,8 +74,16 @@ impl From<StudyError> for Failure {
 }
 
 impl From<AnalysisError> for Failure {
+    /// What asks for something that the line does not have is bad usage, although only the
+    /// analysis could find out.
     fn from(error: AnalysisError) -> Self {
-        Self::Analysis { message: error.to_string(), advice: error.advice() }
+        let (message, advice) = (error.to_string(), error.advice());
+        match error {
+            AnalysisError::InitialValues { .. }
+            | AnalysisError::NoSuchMode { .. }
+            | AnalysisError::NoSuchEquilibrium { .. } => Self::Input { message, advice },
+            _ => Self::Analysis { message, advice },
+        }
     }
 }
 
@@ -84,7 +92,10 @@ impl From<OutputError> for Failure {
         let advice = error.advice().map(str::to_owned);
         let message = error.to_string();
         match error {
-            OutputError::Write(_) | OutputError::Picture { .. } => Self::Output { message, advice },
+            OutputError::Write(_)
+            | OutputError::Folder { .. }
+            | OutputError::ParquetWriter { .. }
+            | OutputError::Picture { .. } => Self::Output { message, advice },
             _ => Self::Input { message, advice },
         }
     }

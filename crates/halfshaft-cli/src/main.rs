@@ -5,23 +5,21 @@ mod commands;
 mod console;
 mod diagnostics;
 mod failure;
+mod usage;
 mod watch;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
-use args::{Arguments, Command};
+use args::Command;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let watch = watch::Watch::start(arguments.common.quiet);
-    let common = &arguments.common;
-    let outcome = match &arguments.command {
-        Command::Ask(ask) => commands::ask::run(ask, common, &watch),
-        Command::Report(report) => commands::report::run(report, common, &watch),
-        Command::Run(run) => commands::run::run(run, common, &watch),
-        Command::Author(author) => commands::author::run(author, common),
+    let command = usage::parse();
+    let watch = watch::Watch::start(command.is_quiet());
+    let outcome = match &command {
+        Command::Ask(ask) => commands::ask::run(ask, &watch),
+        Command::Report(report) => commands::report::run(report, &watch),
+        Command::Run(run) => commands::run::run(run, &watch),
+        Command::Author(author) => commands::author::run(author),
     };
     watch.finish();
     match outcome {

@@ -51,7 +51,7 @@ fn mistakes_in_the_model_are_shown_where_they_stand() {
         ("\"81.6 kg·m²\"", "nan", &["finite"]),
         ("\"81.6 kg·m²\"", "\"inf kg·m²\"", &["finite"]),
         ("ratio = 5.71", "ratio = 0", &["not be zero"]),
-        ("format = 1", "format = 2", &["whole number from 1 to 1"]),
+        ("format = 1", "format = 2", &["this version reads format = 1"]),
         ("name = \"half-shaft\"\n", "name = \"half-shaft\nfrom", &["line.toml:"]),
     ];
     for (from, to, words) in cases {
@@ -84,6 +84,15 @@ fn all_mistakes_are_told_at_once() {
         .replace("mean = \"850 N·m\"", "meen = \"850 N·m\"");
     let result = refused(text.as_bytes());
     assert!(result.err.contains("3 errors"), "{}", result.err);
+    // Values, names and nodes together, and of a node whose inertia is unsound its name.
+    let text = example()
+        .replace("\"81.6 kg·m²\"", "0")
+        .replace("to = \"vehicle\"", "to = \"vehcile\"")
+        .replace("name = \"final drive\"", "name = \"gearbox\"");
+    let result = refused(text.as_bytes());
+    for words in ["more than zero", "did you mean \"vehicle\"", "two elements", "3 errors"] {
+        assert!(result.err.contains(words), "no {words:?} in {}", result.err);
+    }
 }
 
 #[test]
@@ -126,6 +135,24 @@ fn wrong_options_are_told_all_at_once() {
         (&["resonance", "--method", "harmonic-balance"], "not available in this version"),
         (&["resonance", "--frequency", "25"], "not a range"),
         (&["resonance", "--frequency", "25Hz..25Hz"], "empty"),
+        (&["resonance", "--frequency", "3.9Hz..4.4"], "which unit the second number has"),
+        (&["resonance", "--frequency", "28..4.4Hz"], "runs backwards"),
+        (&["resonance", "--mode", "2"], "no elastic mode number 2"),
+        (&["modes", "--equilibrium", "9"], "no equilibrium number 9"),
+        (
+            &["simulate", "--initial", "engine.speed=1", "--initial", "gearbox output.speed=7"],
+            "two of them fix the same motion",
+        ),
+        (&["folds", "--parameter", "vehicle.inertia=-5..100"], "must be more than zero"),
+        (&["folds", "--parameter", "mode.g=1..2"], "mode.alpha, mode.beta, mode.f, mode.omega_1"),
+        (&["static", "--set", "vehicle.inertia=-5"], "must be more than zero"),
+        (&["static", "--set", "road load.peak=-5"], "did you mean \"road load.pulse.peak\""),
+        (&["shock", "--method", "full", "--order", "1"], "only the method multiple-scales"),
+        (&["shock", "--equation", "twist"], "only the method multiple-scales"),
+        (&["shock", "--step", "9s"], "longer than the 5 s"),
+        (&["simulate", "--duration", "1s", "--step", "2s"], "longer than the 1 s"),
+        (&["check", "--out", "a.csv"], "has no table"),
+        (&["report", "--out", "a.csv"], "has no table"),
         (&["folds"], "which parameter"),
         (&["folds", "--parameter", "half-shaft.cubik=1..2"], "no number \"cubik\""),
         (&["shock", "--method", "fool"], "choose from full"),
@@ -152,9 +179,7 @@ fn what_cannot_be_answered_ends_with_status_1_and_a_reason() {
     let folder = folder();
     let cases: &[(&[&str], &str)] = &[
         (&["modes", "--set", "gearbox.ratio=1.79"], "gear 1.79 at 850 N·m needs 8688 N·m"),
-        (&["resonance", "--mode", "7"], "no elastic mode number 7"),
         (&["resonance", "--set", "engine torque.amplitude=0"], "nothing excites the line"),
-        (&["modes", "--equilibrium", "9"], "no equilibrium number 9"),
         (&["simulate", "--set", "gearbox.ratio=5.82", "--duration", "10s"], "runs away"),
     ];
     for (arguments, words) in cases {
@@ -173,13 +198,32 @@ fn study_files_have_their_mistakes_told_too() {
     let folder = folder();
     let study = "format = 1\nname = \"s\"\n[[question]]\nname = \"a\"\nask = \"statik\"\n\
                  [[question]]\nname = \"b\"\nask = \"folds\"\nparameter = \"half-shaft.cubic=1\"\n\
+                 [[question]]\nname = \"d\"\nask = \"folds\"\nparameter = \"engine.inertia=-1..1\"\n\
                  [[figure]]\nname = \"f\"\ntitle = \"t\"\nx = \"time\"\ny = \"q\"\n\
-                 [[figure.question]]\nname = \"c\"\nask = \"static\"\nmodel = \"none.toml\"\n";
+                 [[figure.question]]\nname = \"c\"\nask = \"static\"\nmodel = \"none.toml\"\n\
+                 [[figure.compare]]\nwhat = \"w\"\npointer = \"/p\"\nof = \"e\"\nprinted = 1\n\
+                 [[figure.compare]]\nwhat = \"w\"\npointer = \"/p\"\nprinted = 1\n";
     std::fs::write(folder.path().join("study.toml"), study).expect("writes");
     let result = run(folder.path(), &["run", "study.toml", "--out", "out"]);
     assert_eq!(result.status, 2);
-    for words in ["did you mean \"static\"", "not a range", "cannot read none.toml", "3 errors"] {
+    for words in [
+        "did you mean \"static\"",
+        "not a range",
+        "more than zero",
+        "cannot read none.toml",
+        "did you mean \"c\"",
+        "5 errors",
+    ] {
         assert!(result.err.contains(words), "no {words:?} in {}", result.err);
     }
     assert!(!Path::new(&folder.path().join("out")).exists());
+    // A mistake in the model is told once, however many questions are asked of it.
+    let model = example().replace("\"81.6 kg·m²\"", "0");
+    std::fs::write(folder.path().join("line.toml"), model).expect("writes");
+    let study = "format = 1\nname = \"s\"\nmodel = \"line.toml\"\n\
+                 [[question]]\nname = \"a\"\nask = \"static\"\n\
+                 [[question]]\nname = \"b\"\nask = \"modes\"\n";
+    std::fs::write(folder.path().join("study.toml"), study).expect("writes");
+    let result = run(folder.path(), &["run", "study.toml"]);
+    assert_eq!(result.err.matches("more than zero").count(), 1, "{}", result.err);
 }

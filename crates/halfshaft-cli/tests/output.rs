@@ -117,6 +117,10 @@ fn an_output_folder_that_takes_no_file_is_told_before_any_work() {
         assert!(result.err.contains("cannot write in"), "{target}: {}", result.err);
     }
     assert_eq!(files(folder.path()), ["file"]);
+    // Where there is no answer there is no folder for it either.
+    let result = run(folder.path(), &["modes", "--set", "gearbox.ratio=1.79", "--out", "new"]);
+    assert_eq!(result.status, 1, "{}", result.err);
+    assert_eq!(files(folder.path()), ["file"]);
 }
 
 #[test]
@@ -182,13 +186,21 @@ fn a_full_disk_leaves_the_old_file_and_no_half_one() {
         assert_eq!(result.status, 1, "{arguments:?}: {}", result.err);
         assert!(result.err.contains("No space left"), "{arguments:?}: {}", result.err);
         assert!(result.err.contains(name), "{arguments:?}: {}", result.err);
+        assert_eq!(result.err.matches("cannot write").count(), 1, "{}", result.err);
+        assert_eq!(result.err.matches("nothing was left").count(), 1, "{}", result.err);
     }
-    assert_eq!(files(folder), ["answer.csv"], "no half-written or temporary file");
+    let result = run(folder, &["simulate", "--out", "new/and/deeper"]);
+    assert_eq!(result.status, 1, "{}", result.err);
+    assert_eq!(files(folder), ["answer.csv"], "no half-written file nor folder");
     assert_eq!(std::fs::read(folder.join("answer.csv")).expect("whole"), before);
 }
 
+fn parquet_writer() -> std::path::PathBuf {
+    Path::new(env!("CARGO_BIN_EXE_halfshaft")).with_file_name("halfshaft-parquet")
+}
+
 fn parquet_writer_is_there() -> bool {
-    Path::new(env!("CARGO_BIN_EXE_halfshaft")).with_file_name("halfshaft-parquet").exists()
+    parquet_writer().exists()
 }
 
 /// Sends SIGINT after a delay.
@@ -270,8 +282,7 @@ fn parquet_files_hold_the_same_answer() {
     for verb in ["static", "modes", "simulate", "shock", "resonance"] {
         let result = run(folder.path(), &[verb, "--json", "--out", "a.parquet"]);
         assert_eq!(result.status, 0, "{}", result.err);
-        let helper = Path::new(env!("CARGO_BIN_EXE_halfshaft")).with_file_name("halfshaft-parquet");
-        let back = Command::new(helper)
+        let back = Command::new(parquet_writer())
             .current_dir(folder.path())
             .args(["--json", "a.parquet"])
             .output()
@@ -284,6 +295,28 @@ fn parquet_files_hold_the_same_answer() {
         );
     }
     let result = run(folder.path(), &["check", "--out", "check.parquet"]);
-    assert_eq!(result.status, 1);
+    assert_eq!(result.status, 2);
     assert!(result.err.contains("has no table"), "{}", result.err);
+}
+
+// A range without folds: its table has a head and no rows, in each form.
+#[test]
+fn an_answer_without_curves_is_a_table_without_rows() {
+    let folder = folder();
+    let folds = ["folds", "--parameter", "half-shaft.damping=1..2", "--frequency", "1..2"];
+    let ask = |out: &[&str]| run(folder.path(), &[&folds[..], out].concat());
+    assert_eq!(ask(&["--out", "a.csv"]).status, 0);
+    let text = std::fs::read_to_string(folder.path().join("a.csv")).expect("written");
+    assert_eq!(text, "frequency (rad/s),half-shaft.damping (N·m·s/rad),sigma (rad/s),rho (rad)\n");
+    if parquet_writer_is_there() {
+        let result = ask(&["--out", "a.parquet", "--json"]);
+        assert_eq!(result.status, 0, "{}", result.err);
+        let back = Command::new(parquet_writer())
+            .args(["--json", "a.parquet"])
+            .current_dir(folder.path())
+            .output()
+            .expect("starts");
+        let back = String::from_utf8(back.stdout).expect("UTF-8");
+        assert_eq!(from_json(&back).expect("JSON"), from_json(&result.out).expect("JSON"));
+    }
 }

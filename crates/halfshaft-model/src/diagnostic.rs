@@ -181,14 +181,25 @@ impl Diagnostics {
 }
 
 /// The name in `known` that is nearest to `text`, where one is near enough to be meant.
-pub fn did_you_mean<'k>(text: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
+pub fn nearest<'k>(text: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let folded = text.to_lowercase();
     known
         .into_iter()
         .map(|name| (strsim::damerau_levenshtein(&folded, &name.to_lowercase()), name))
         .filter(|(distance, name)| *distance <= 1.max(name.chars().count() / 3))
         .min_by_key(|(distance, _)| *distance)
-        .map(|(_, name)| format!("did you mean \"{name}\"?"))
+        .map(|(_, name)| name)
+}
+
+/// The [`nearest`] name as a question.
+pub fn did_you_mean<'k>(text: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
+    nearest(text, known).map(|name| format!("did you mean \"{name}\"?"))
+}
+
+/// A noun with "a" or "an" before it.
+pub(crate) fn with_article(noun: &str) -> String {
+    let article = if noun.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
+    format!("{article} {noun}")
 }
 
 #[cfg(test)]

@@ -1,12 +1,13 @@
 //! Parameter addresses: `<element name>.<key>` for every numeric key of a line.
 //!
 //! `half-shaft.cubic`, `engine torque.amplitude`, `engine torque.pulse.peak`,
-//! `engine torque.harmonics.1.amplitude` (the first entry of `harmonics`). Element names may
-//! contain dots; the longest name that fits is meant.
+//! `engine torque.harmonics.1.amplitude` (the first entry of `harmonics`), `gearbox.ratios.1`.
+//! Element names may contain dots; the longest name that fits is meant.
 
+use crate::diagnostic::did_you_mean;
 use crate::driveline::Driveline;
 use crate::elements::{GEAR, HARMONIC, INERTIA, MeanTorque, PULSE, SHAFT, TORQUE};
-use crate::format::{KeySpec, TableSpec};
+use crate::format::{TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
 
 /// Which list of the line an element stands in.
@@ -55,8 +56,35 @@ pub enum AddressError {
         /// The key as written.
         key: String,
         /// The numeric keys that it has.
-        known: Vec<&'static str>,
+        known: Vec<String>,
     },
+}
+
+impl AddressError {
+    /// What to write instead.
+    pub fn hint(&self, line: &Driveline) -> String {
+        match self {
+            Self::NoDot { .. } => {
+                "an address is <element name>.<key>, e.g. half-shaft.cubic".to_owned()
+            }
+            Self::NoElement { name } => {
+                did_you_mean(name, line.element_names()).unwrap_or_else(|| {
+                    let names: Vec<_> = line.element_names().collect();
+                    format!("elements of this line are {}", names.join(", "))
+                })
+            }
+            Self::NoKey { element, key, known } => {
+                // A number of a table inside the element is often asked for without that table.
+                let nested = known.iter().find(|known| known.rsplit('.').next() == Some(key));
+                if let Some(nested) = nested {
+                    return format!("did you mean \"{element}.{nested}\"?");
+                }
+                let known: Vec<&str> = known.iter().map(String::as_str).collect();
+                did_you_mean(key, known.iter().copied())
+                    .unwrap_or_else(|| format!("it has {}", known.join(", ")))
+            }
+        }
+    }
 }
 
 /// Finds the parameter at `address`.
@@ -81,12 +109,13 @@ pub fn resolve(line: &Driveline, address: &str) -> Result<Parameter, AddressErro
         return Err(AddressError::NoElement { name: name.to_owned() });
     };
     let key = &address[name.len() + 1..];
-    let spec = key_spec(line, list, index, key);
-    let Some((kind, sign)) = spec.and_then(KeySpec::quantity) else {
-        let known = numeric_keys(table_of(list));
-        let element = name.to_owned();
-        return Err(AddressError::NoKey { element, key: key.to_owned(), known });
+    let numbers = numbers(line, list, index);
+    let Some(Number { kind, sign, .. }) = numbers.iter().find(|number| number.key == key) else {
+        let (element, key) = (name.to_owned(), key.to_owned());
+        let known = numbers.into_iter().map(|number| number.key).collect();
+        return Err(AddressError::NoKey { element, key, known });
     };
+    let (kind, sign) = (*kind, *sign);
     Ok(Parameter { address: address.to_owned(), kind, sign, list, index, key: key.to_owned() })
 }
 
@@ -113,31 +142,47 @@ fn table_of(list: List) -> &'static TableSpec {
     }
 }
 
-/// The specification of a possibly nested key, where the element has the nested table.
-fn key_spec(line: &Driveline, list: List, index: usize, key: &str) -> Option<&'static KeySpec> {
-    let spec = if list == List::Torque {
-        let torque = line.torques.get(index)?;
-        if let Some(key) = key.strip_prefix("pulse.") {
-            torque.pulse.as_ref()?;
-            PULSE.key(key)
-        } else if let Some(rest) = key.strip_prefix("harmonics.") {
-            let (number, key) = rest.split_once('.')?;
-            let number: usize = number.parse().ok().filter(|number| *number > 0)?;
-            torque.harmonics.get(number)?;
-            HARMONIC.key(key)
-        } else {
-            TORQUE.key(key)
-        }
-    } else {
-        table_of(list).key(key)
-    };
-    spec.filter(|spec| spec.refused.is_none())
+/// A number of an element: its key, possibly nested, and what it means.
+struct Number {
+    key: String,
+    kind: QuantityKind,
+    sign: Sign,
 }
 
-/// The numeric keys of an element table that this version offers.
-fn numeric_keys(table: &'static TableSpec) -> Vec<&'static str> {
+/// All numbers of an element, with those of the tables and lists that it has.
+fn numbers(line: &Driveline, list: List, index: usize) -> Vec<Number> {
+    let mut numbers = numbers_of(table_of(list), "");
+    if let (List::Gear, Some(gear)) = (list, line.gears.get(index))
+        && let Some(ValueSpec::Quantities(kind, sign)) = GEAR.key("ratios").map(|key| key.value)
+    {
+        let keys = (1..=gear.ratios.len()).map(|number| format!("ratios.{number}"));
+        numbers.extend(keys.map(|key| Number { key, kind, sign }));
+    }
+    if let (List::Torque, Some(torque)) = (list, line.torques.get(index)) {
+        if let Some(mut pulse) = torque.pulse.clone() {
+            let mut inside = numbers_of(&PULSE, "");
+            // An impulse has no peak, and no other shape an impulse.
+            inside.retain(|number| pulse.parameter_mut(&number.key).is_some());
+            inside.iter_mut().for_each(|number| number.key.insert_str(0, "pulse."));
+            numbers.extend(inside);
+        }
+        // Entry 0 is that of the torque's own keys.
+        for number in 1..torque.harmonics.len() {
+            numbers.extend(numbers_of(&HARMONIC, &format!("harmonics.{number}.")));
+        }
+    }
+    numbers
+}
+
+/// The numbers of a table that this version offers.
+fn numbers_of(table: &TableSpec, prefix: &str) -> Vec<Number> {
     let offered = table.keys.iter().filter(|key| key.refused.is_none());
-    offered.filter(|key| key.quantity().is_some()).map(|key| key.name).collect()
+    offered
+        .filter_map(|spec| {
+            let (kind, sign) = spec.quantity()?;
+            Some(Number { key: format!("{prefix}{}", spec.name), kind, sign })
+        })
+        .collect()
 }
 
 impl Parameter {

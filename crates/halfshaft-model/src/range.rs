@@ -1,6 +1,6 @@
 //! Ranges `A..B` and bare numbers as they stand in flags and study files.
 
-use crate::units::{QuantityError, QuantityKind, parse_quantity};
+use crate::units::{QuantityError, QuantityKind, parse_quantity, unit_of};
 
 /// Why a text is no range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -16,6 +16,20 @@ pub enum RangeError {
     /// One end cannot be read.
     #[error(transparent)]
     End(#[from] QuantityError),
+    /// Only the first number has a unit.
+    #[error("say which unit the second number has")]
+    UnitOnFirst {
+        /// The text as written.
+        text: String,
+        /// The first number's unit, with the space before it if there is one.
+        unit: String,
+    },
+    /// The unit of the second number, which holds for both, makes the first one the larger.
+    #[error("the range runs backwards, since the unit holds for both numbers")]
+    Backwards {
+        /// The unit.
+        unit: String,
+    },
     /// Both ends are the same.
     #[error("the range \"{text}\" is empty")]
     Empty {
@@ -34,6 +48,13 @@ impl RangeError {
                 Some(format!("write two values with two dots between, e.g. 20{unit}..30{unit}"))
             }
             Self::End(error) => error.hint(),
+            Self::UnitOnFirst { text, unit } => {
+                Some(format!("write \"{text}{unit}\", or each number with its own unit"))
+            }
+            Self::Backwards { unit } => Some(format!(
+                "write the smaller number first, or, if the first is not in {unit}, each number \
+                 with its own unit"
+            )),
             Self::Empty { .. } => Some("give two different ends".to_owned()),
         }
     }
@@ -53,36 +74,43 @@ pub fn parse_flag_quantity(text: &str, kind: QuantityKind) -> Result<f64, Quanti
 
 /// Reads `A..B`; returns the smaller end first.
 ///
-/// Bare numbers are in SI; where only the second end has a unit it holds for both
-/// (`20..28 Hz`).
+/// Bare numbers are in SI; where only the second one has a unit it holds for both (`20..28 Hz`).
+/// Where both numbers say for themselves what they are, the larger one may come first.
 ///
 /// # Errors
-/// [`RangeError`] where there are no two dots, an end cannot be read, or both are equal.
+/// [`RangeError`] where there are no two dots, an end cannot be read, only the first number has a
+/// unit, or both are equal.
 pub fn parse_range(text: &str, kind: QuantityKind) -> Result<(f64, f64), RangeError> {
+    let owned = || text.trim().to_owned();
     let no_dots = || RangeError::NoDots { text: text.to_owned(), kind };
     let (from, to) = text.split_once("..").ok_or_else(no_dots)?;
-    let (from, to) = (from.trim(), to.trim_start_matches('.').trim());
-    if from.is_empty() || to.is_empty() {
+    let (from, to) = (from.trim(), to.trim());
+    // "0...5" could end at 5 or at 0.5.
+    if from.is_empty() || to.is_empty() || to.starts_with('.') {
         return Err(no_dots());
     }
-    let end = parse_flag_quantity(to, kind)?;
-    let bare = matches!(parse_quantity(from, kind), Err(QuantityError::NoUnit { .. }));
-    let start = match unit_of(to) {
-        Some(unit) if bare => parse_flag_quantity(&format!("{from} {unit}"), kind)?,
-        _ => parse_flag_quantity(from, kind)?,
+    let (start, end) = (parse_flag_quantity(from, kind), parse_flag_quantity(to, kind)?);
+    let (start, end) = match (unit_of(from), unit_of(to)) {
+        // Zero is zero in every unit.
+        (Some(unit), None) if end != 0.0 => {
+            start?;
+            let spaced = format!(" {unit}");
+            let unit = if from.ends_with(&spaced) { &spaced } else { unit };
+            return Err(RangeError::UnitOnFirst { text: owned(), unit: unit.to_owned() });
+        }
+        (None, Some(unit)) => {
+            let start = parse_flag_quantity(&format!("{from} {unit}"), kind)?;
+            if start > end && start != 0.0 {
+                return Err(RangeError::Backwards { unit: unit.to_owned() });
+            }
+            (start, end)
+        }
+        _ => (start?, end),
     };
     if start == end {
-        return Err(RangeError::Empty { text: text.to_owned() });
+        return Err(RangeError::Empty { text: owned() });
     }
     Ok((start.min(end), start.max(end)))
-}
-
-/// The unit part of a quantity text, if it has one.
-fn unit_of(text: &str) -> Option<&str> {
-    let at = text.find(|c: char| {
-        !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-' | '−' | ' ' | 'e' | 'E'))
-    })?;
-    Some(&text[at..])
 }
 
 #[cfg(test)]
@@ -98,11 +126,29 @@ mod tests {
         assert_eq!(parse_range("20..28", QuantityKind::Speed), Ok((20.0, 28.0)));
         assert_eq!(parse_range("0..-642", QuantityKind::Stiffness(3)), Ok((-642.0, 0.0)));
         assert_eq!(parse_range("1e1..2.5e1", QuantityKind::Number), Ok((10.0, 25.0)));
+        assert_eq!(parse_range("1..2 %", QuantityKind::Number), Ok((0.01, 0.02)));
+    }
+
+    #[test]
+    fn a_unit_that_could_be_meant_for_one_number_only_is_asked_for() {
+        let speed = |text| parse_range(text, QuantityKind::Speed);
+        for text in ["3.9Hz..4.4", "3.9 Hz .. 4.4", "-1Hz..2"] {
+            assert!(matches!(speed(text), Err(RangeError::UnitOnFirst { .. })), "{text}");
+        }
+        let hint = speed("3.9Hz..4.4").expect_err("is ambiguous").hint();
+        assert!(hint.is_some_and(|hint| hint.contains("\"3.9Hz..4.4Hz\"")));
+        assert!(matches!(speed("28..4.4Hz"), Err(RangeError::Backwards { .. })));
+        // With a unit at both, at none, or at a zero, nothing is in doubt.
+        assert_eq!(speed("4Hz..3Hz"), speed("3Hz..4Hz"));
+        assert_eq!(speed("28..20"), Ok((20.0, 28.0)));
+        assert_eq!(speed("3Hz..0"), speed("0..3Hz"));
+        assert_eq!(speed("0..-3Hz"), speed("-3Hz..0Hz"));
     }
 
     #[test]
     fn what_is_no_range_is_refused() {
-        for text in ["", "5", "..", "1..", "..2", "a..b", "1..1", "1 kg..2 kg", "1..2..3"] {
+        for text in ["", "5", "..", "1..", "..2", "a..b", "1..1", "1 kg..2 kg", "1..2..3", "0...5"]
+        {
             assert!(parse_range(text, QuantityKind::Speed).is_err(), "{text}");
         }
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use halfshaft_results::{Answer, Table};
+use halfshaft_results::{Answer, Table, io::tables_of};
 use parquet::basic::{Encoding, Repetition, Type as PhysicalType};
 use parquet::data_type::{DoubleType, Int32Type};
 use parquet::file::metadata::KeyValue;
@@ -18,7 +18,7 @@ use crate::{ANSWER_KEY, ParquetError, TABLE_COLUMN, UNITS_KEY};
 /// [`ParquetError::NoTable`] for answers without tables; errors of the Parquet library, which
 /// memory does not give.
 pub fn to_bytes(answer: &Answer) -> Result<Vec<u8>, ParquetError> {
-    let tables: Vec<Table> = answer.tables().into_iter().map(|(_, table)| table).collect();
+    let tables: Vec<Table> = tables_of(answer).into_iter().map(|(_, table)| table).collect();
     let names = column_names(&tables);
     if tables.is_empty() || names.is_empty() {
         return Err(ParquetError::NoTable { analysis: answer.header().analysis.clone() });

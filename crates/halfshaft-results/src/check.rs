@@ -82,10 +82,36 @@ pub struct CheckedTorque {
     pub on: String,
     /// Mean, N·m; `None` where it balances the others.
     pub mean: Option<f64>,
-    /// Harmonics as (order, amplitude in N·m, phase in rad), those with an amplitude.
-    pub harmonics: Vec<(f64, f64, f64)>,
-    /// The pulse in words, if any.
-    pub pulse: Option<String>,
+    /// Its harmonics, those with an amplitude.
+    pub harmonics: Vec<CheckedHarmonic>,
+    /// The pulse, if any.
+    pub pulse: Option<CheckedPulse>,
+}
+
+/// A harmonic of a torque.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedHarmonic {
+    /// Times per turn of the excitation.
+    pub order: f64,
+    /// N·m.
+    pub amplitude: f64,
+    /// rad.
+    pub phase: f64,
+}
+
+/// A pulse of a torque.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedPulse {
+    /// `half-sine`, `rectangle`, `ramp` or `impulse`.
+    pub shape: String,
+    /// Largest torque, N·m; `None` for an impulse.
+    pub peak: Option<f64>,
+    /// When it begins, s.
+    pub start: f64,
+    /// How long it lasts (a ramp: how long it rises), s.
+    pub duration: f64,
+    /// Torque over time, N·m·s.
+    pub angular_impulse: f64,
 }
 
 /// Answer of `check`.

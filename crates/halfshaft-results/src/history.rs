@@ -104,7 +104,7 @@ pub struct MethodRow {
     pub first_rate_peak_error: Option<f64>,
     /// Largest difference to the reference over the whole history, over its first peak.
     pub largest_difference: Option<f64>,
-    /// Phase behind (negative) or ahead of the reference after 2 s, rad.
+    /// Phase behind (negative) or ahead of the reference at 2 s, rad.
     pub phase_error: Option<f64>,
     /// Name of the method that the errors are against.
     pub reference: Option<String>,

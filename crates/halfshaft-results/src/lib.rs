@@ -25,7 +25,8 @@ mod table;
 
 pub use answer::Answer;
 pub use check::{
-    CheckResult, CheckedGear, CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
+    CheckResult, CheckedGear, CheckedHarmonic, CheckedPulse, CheckedShaft, CheckedTorque, Member,
+    NonlinearTerm, ReducedInertia,
 };
 pub use equilibrium::{
     Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, SharedLoad, StaticResult,

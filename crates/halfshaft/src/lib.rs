@@ -21,6 +21,7 @@ mod output;
 mod parquet;
 mod report;
 mod study;
+mod target;
 
 pub use halfshaft_analysis::{AnalysisError, ask};
 pub use halfshaft_model as model;
@@ -32,9 +33,10 @@ pub use halfshaft_results as results;
 pub use halfshaft_results::Answer;
 
 pub use load::{LoadError, Loaded, load, load_embedded};
-pub use output::{Format, OutputError, Target, write};
+pub use output::write;
 pub use report::report;
 pub use study::run_study;
+pub use target::{Format, OutputError, Target};
 
 /// Version of the program.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

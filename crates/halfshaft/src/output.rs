@@ -4,149 +4,15 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::parquet;
+use crate::target::{Format, OutputError, Target, is_here};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_present::figure::svg::SvgOptions;
 use halfshaft_present::figure::{Figure, FigureError, png, svg};
 use halfshaft_present::{figures, html, sketch};
 use halfshaft_results::io::{
-    WriteError, comparison_csv, comparison_markdown, csv, write_atomically,
+    WriteError, comparison_csv, comparison_markdown, csv, tables_of, write_atomically,
 };
 use halfshaft_results::{Answer, CheckResult, StudyResult};
-
-/// A form that an answer can be written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Everything, as JSON.
-    Json,
-    /// The tables, as comma-separated values.
-    Csv,
-    /// Everything, as a Parquet file whose columns are the tables.
-    Parquet,
-    /// Figures, as vector graphics.
-    Svg,
-    /// Figures, as pixels.
-    Png,
-    /// A page with figures.
-    Html,
-}
-
-/// Why an answer could not be written.
-#[derive(Debug, thiserror::Error)]
-pub enum OutputError {
-    /// The ending is none that this version writes.
-    #[error("\"{}\" ends in no form that halfshaft writes", path.display())]
-    UnknownEnding {
-        /// The path as given.
-        path: PathBuf,
-    },
-    /// The Parquet writer, a program of its own, is not there.
-    #[error("the Parquet writer halfshaft-parquet was not found beside halfshaft nor in the PATH")]
-    NoParquet,
-    /// The folder cannot be made or written in.
-    #[error("cannot write in {}: {source}", folder.display())]
-    Folder {
-        /// The folder.
-        folder: PathBuf,
-        /// What the operating system said.
-        source: std::io::Error,
-    },
-    /// The answer has nothing of that form.
-    #[error("the answer of `{analysis}` has no {what} to write")]
-    Nothing {
-        /// Name of the analysis.
-        analysis: String,
-        /// What it lacks.
-        what: &'static str,
-    },
-    /// Writing failed; no half-written file stands under the name.
-    #[error(transparent)]
-    Write(#[from] WriteError),
-    /// A picture could not be drawn.
-    #[error("cannot draw {}: {reason}", path.display())]
-    Picture {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
-}
-
-impl OutputError {
-    /// What to do about it.
-    pub fn advice(&self) -> Option<&'static str> {
-        match self {
-            Self::UnknownEnding { .. } => Some(
-                "end in .json, .csv, .parquet, .svg, .png or .html, or name a folder for all of them",
-            ),
-            Self::NoParquet => Some(
-                "build it with `cargo build --release` (or `cargo install --path \
-                 crates/halfshaft-parquet`), or write .json or .csv",
-            ),
-            Self::Nothing { .. } => Some("--out answer.json holds everything"),
-            Self::Folder { .. } => Some("name a folder that you may write in"),
-            Self::Write(_) | Self::Picture { .. } => None,
-        }
-    }
-}
-
-/// Where answers go.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Target {
-    /// One form into one file (and numbered neighbours where there are several figures).
-    File(PathBuf, Format),
-    /// All forms into a folder.
-    Folder(PathBuf),
-}
-
-impl Target {
-    /// The target that a path means: a file by its ending, a folder without one.
-    ///
-    /// Tries to write there, so that a long computation does not end at a closed door.
-    ///
-    /// # Errors
-    /// [`OutputError`] where the ending is unknown or the folder cannot be written in.
-    pub fn prepare(path: &Path) -> Result<Self, OutputError> {
-        let unwritable = |folder: &Path| {
-            let folder = folder.to_path_buf();
-            move |source| OutputError::Folder { folder, source }
-        };
-        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase);
-        if path.is_dir() || ending.is_none() {
-            std::fs::create_dir_all(path).map_err(unwritable(path))?;
-            try_writing(path).map_err(unwritable(path))?;
-            return Ok(Self::Folder(path.to_path_buf()));
-        }
-        let format = match ending.as_deref() {
-            Some("json") => Format::Json,
-            Some("csv") => Format::Csv,
-            Some("parquet") => match parquet::writer() {
-                Some(_) => Format::Parquet,
-                None => return Err(OutputError::NoParquet),
-            },
-            Some("svg") => Format::Svg,
-            Some("png") => Format::Png,
-            Some("html" | "htm") => Format::Html,
-            _ => return Err(OutputError::UnknownEnding { path: path.to_path_buf() }),
-        };
-        let folder = folder_of(path);
-        try_writing(&folder).map_err(unwritable(&folder))?;
-        Ok(Self::File(path.to_path_buf(), format))
-    }
-}
-
-fn folder_of(path: &Path) -> PathBuf {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
-        _ => PathBuf::from("."),
-    }
-}
-
-/// Makes and removes a file in the folder.
-fn try_writing(folder: &Path) -> std::io::Result<()> {
-    let probe = folder.join(format!(".halfshaft-probe-{}.tmp", std::process::id()));
-    std::fs::File::create(&probe)?;
-    std::fs::remove_file(&probe)
-}
 
 /// Writes an answer; returns the files written, in order.
 ///
@@ -162,8 +28,23 @@ pub fn write(
 ) -> Result<Vec<PathBuf>, OutputError> {
     match target {
         Target::File(path, format) => Writer { observer }.form(answer, path, *format),
-        Target::Folder(folder) => Writer { observer }.folder(answer, folder),
+        Target::Folder(folder) => {
+            let made = make_folder(folder)?;
+            Writer { observer }.folder(answer, folder).inspect_err(|_| {
+                // A folder that we made for nothing is not left behind; one with a file in it stays.
+                made.iter().for_each(|folder| drop(std::fs::remove_dir(folder)));
+            })
+        }
     }
+}
+
+/// Makes a folder with all above it; returns those that were not there, the innermost first.
+fn make_folder(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    let missing = folder.ancestors().take_while(|folder| !folder.exists() && !is_here(folder));
+    let missing: Vec<PathBuf> = missing.map(Path::to_path_buf).collect();
+    std::fs::create_dir_all(folder)
+        .map_err(|source| OutputError::Folder { folder: folder.to_path_buf(), source })?;
+    Ok(missing)
 }
 
 struct Writer<'o> {
@@ -204,7 +85,7 @@ impl Writer<'_> {
             return Err(WriteError::Content { path: path.to_path_buf(), source }.into());
         }
         parquet::write(&writer, answer, path)
-            .map_err(|source| WriteError::Content { path: path.to_path_buf(), source }.into())
+            .map_err(|complaint| OutputError::ParquetWriter { complaint })
     }
 
     /// All figures of an answer: the first under the name, the others with their own beside it.
@@ -271,7 +152,7 @@ impl Writer<'_> {
             self.text(&file("csv"), &text)?;
             written.push(file("csv"));
         }
-        if parquet::writer().is_some() && !answer.tables().is_empty() {
+        if parquet::writer().is_some() && !tables_of(answer).is_empty() {
             written.extend(self.form(answer, &file("parquet"), Format::Parquet)?);
         }
         if matches!(answer, Answer::Check(_)) {

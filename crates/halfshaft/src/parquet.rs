@@ -23,8 +23,16 @@ pub(crate) fn writer() -> Option<PathBuf> {
     std::env::split_paths(&path).map(|folder| folder.join(&name)).find(|file| file.is_file())
 }
 
-/// Has the answer written to `path`, all or nothing.
-pub(crate) fn write(writer: &Path, answer: &Answer, path: &Path) -> std::io::Result<()> {
+/// Has the answer written to `path`, all or nothing. The error is a whole sentence, mostly the
+/// writer's own.
+pub(crate) fn write(writer: &Path, answer: &Answer, path: &Path) -> Result<(), String> {
+    send(writer, answer, path)
+        .map_err(|error| format!("cannot use {}: {error}", writer.display()))?
+        .map_err(|complaint| complaint.trim().trim_start_matches("error: ").to_owned())
+}
+
+/// Runs the writer; its complaint where it has one.
+fn send(writer: &Path, answer: &Answer, path: &Path) -> std::io::Result<Result<(), String>> {
     let mut child = Command::new(writer)
         .arg(path)
         .stdin(Stdio::piped())
@@ -39,9 +47,7 @@ pub(crate) fn write(writer: &Path, answer: &Answer, path: &Path) -> std::io::Res
     // The child's own complaint says more than a pipe that it closed.
     let output = child.wait_with_output()?;
     if output.status.success() {
-        return sent;
+        return sent.map(Ok);
     }
-    let complaint = String::from_utf8_lossy(&output.stderr);
-    let complaint = complaint.trim().trim_start_matches("error: ");
-    Err(std::io::Error::other(complaint.to_owned()))
+    Ok(Err(String::from_utf8_lossy(&output.stderr).into_owned()))
 }

@@ -101,8 +101,15 @@ fn excited_modes(
         Some(order) => vec![order],
         None => equations.excitation.orders(),
     };
-    if orders.is_empty() {
+    let known = equations.excitation.orders();
+    if known.is_empty() {
         let reason = "no torque has an amplitude".to_owned();
+        return Err(AnalysisError::NoExcitation { reason });
+    }
+    if let Some(order) = question.order.filter(|order| !known.contains(order)) {
+        let known: Vec<String> = known.iter().map(f64::to_string).collect();
+        let reason =
+            format!("no torque has the order {order}; the orders are {}", known.join(", "));
         return Err(AnalysisError::NoExcitation { reason });
     }
     let mut modes = Vec::new();

@@ -5,7 +5,8 @@ use halfshaft_model::Driveline;
 use halfshaft_model::elements::{MeanTorque, Pulse, PulseShape, Shaft};
 use halfshaft_model::question::{Question, Verb};
 use halfshaft_results::{
-    CheckResult, CheckedGear, CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
+    CheckResult, CheckedGear, CheckedHarmonic, CheckedPulse, CheckedShaft, CheckedTorque, Member,
+    NonlinearTerm, ReducedInertia,
 };
 
 use crate::error::AnalysisError;
@@ -103,26 +104,28 @@ fn torque(torque: &halfshaft_model::elements::Torque) -> CheckedTorque {
             .harmonics
             .iter()
             .filter(|harmonic| harmonic.amplitude_nm != 0.0)
-            .map(|harmonic| (harmonic.order, harmonic.amplitude_nm, harmonic.phase_rad))
+            .map(|harmonic| CheckedHarmonic {
+                order: harmonic.order,
+                amplitude: harmonic.amplitude_nm,
+                phase: harmonic.phase_rad,
+            })
             .collect(),
         pulse: torque.pulse.as_ref().map(pulse),
     }
 }
 
-fn pulse(pulse: &Pulse) -> String {
+fn pulse(pulse: &Pulse) -> CheckedPulse {
     let shape = match pulse.shape {
         PulseShape::HalfSine => "half-sine",
         PulseShape::Rectangle => "rectangle",
         PulseShape::Ramp => "ramp",
-        PulseShape::Impulse => {
-            return format!("impulse of {} N·m·s at {} s", pulse.impulse_nm_s, pulse.start_s);
-        }
+        PulseShape::Impulse => "impulse",
     };
-    format!(
-        "{shape} of {} N·m from {} s for {} s ({:.4} N·m·s)",
-        pulse.peak_nm,
-        pulse.start_s,
-        pulse.duration_s,
-        pulse.angular_impulse()
-    )
+    CheckedPulse {
+        shape: shape.to_owned(),
+        peak: (pulse.shape != PulseShape::Impulse).then_some(pulse.peak_nm),
+        start: pulse.start_s,
+        duration: pulse.duration_s,
+        angular_impulse: pulse.angular_impulse(),
+    }
 }

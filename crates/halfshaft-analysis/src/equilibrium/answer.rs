@@ -195,7 +195,9 @@ fn needs(subject: &str, equations: &EquationsOfMotion, overload: &Overload) -> S
     };
     let carries = overload.limit.map(|limit| limit.torque.abs());
     let (asked, limit) = pair(needed, carries.unwrap_or(0.0));
-    let carried = if carries.is_some() {
+    let carried = if carries.is_some() && asked == limit {
+        format!("{} just that, at the limit where no state is stable", laws.1)
+    } else if carries.is_some() {
         format!("{} {limit}", laws.1)
     } else {
         format!("{} no such torque in a stable state", laws.2)

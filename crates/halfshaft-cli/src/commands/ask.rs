@@ -3,16 +3,16 @@
 use halfshaft::model::question;
 
 use super::{deliver, load_line, target};
-use crate::args::{Ask, Common};
+use crate::args::Ask;
 use crate::failure::Failure;
 use crate::watch::Watch;
 
 /// Answers a question about a line.
-pub fn run(ask: &Ask, common: &Common, watch: &Watch) -> Result<(), Failure> {
+pub fn run(ask: &Ask, watch: &Watch) -> Result<(), Failure> {
     let (verb, model, text) = ask.question();
-    let line = load_line(model, common)?;
+    let line = load_line(model)?;
     let question = question::read(verb, &text, &line).map_err(Failure::Options)?;
-    let target = target(common)?;
+    let target = target(&model.common, verb.name())?;
     let answer = halfshaft::ask(&line, &question, watch)?;
-    deliver(&answer, target.as_ref(), common, watch)
+    deliver(&answer, target.as_ref(), &model.common, watch)
 }

@@ -7,33 +7,43 @@ use halfshaft::model::format::{MODEL, json_schema, reference_page};
 use halfshaft::model::{embedded, study};
 use halfshaft::results::io::write_atomically;
 
-use crate::args::{Arguments, Author, Common, New};
+use crate::args::{Arguments, Author, Folder, New, Printed};
 use crate::console;
 use crate::failure::Failure;
 
 /// Runs a helper.
-pub fn run(author: &Author, common: &Common) -> Result<(), Failure> {
+pub fn run(author: &Author) -> Result<(), Failure> {
     match author {
-        Author::New(new) => new_file(new, common),
+        Author::New(new) => new_file(new),
         Author::Schema(schema) => {
-            let schema = match schema.of.as_str() {
+            let text = match schema.of.as_str() {
                 "study" => json_schema(&study::STUDY, "halfshaft study"),
                 _ => json_schema(&MODEL, "halfshaft model"),
             };
-            console::say(&format!("{schema:#}\n"))
+            print(&format!("{text:#}\n"), &schema.printed)
         }
         Author::Completions(completions) => {
             let mut text = Vec::new();
             let mut command = Arguments::command();
             clap_complete::generate(completions.shell, &mut command, "halfshaft", &mut text);
-            console::say(&String::from_utf8_lossy(&text))
+            print(&String::from_utf8_lossy(&text), &completions.printed)
         }
-        Author::Man(man) => manual(&man.folder, common),
+        Author::Man(folder) => manual(folder),
         Author::Reference(folder) => reference(&folder.folder),
     }
 }
 
-fn new_file(new: &New, common: &Common) -> Result<(), Failure> {
+/// Prints a text, or writes it where that was asked for.
+fn print(text: &str, printed: &Printed) -> Result<(), Failure> {
+    let Some(path) = &printed.out else { return console::say(text) };
+    save(path, text.as_bytes())?;
+    if !printed.quiet.quiet {
+        console::note(&format!("wrote {}", path.display()));
+    }
+    Ok(())
+}
+
+fn new_file(new: &New) -> Result<(), Failure> {
     if new.file.exists() && !new.force {
         return Err(Failure::Input {
             message: format!("{} is there already", new.file.display()),
@@ -41,7 +51,7 @@ fn new_file(new: &New, common: &Common) -> Result<(), Failure> {
         });
     }
     save(&new.file, embedded::starter().as_bytes())?;
-    if !common.quiet {
+    if !new.quiet.quiet {
         let name = new.file.display();
         console::note(&format!("wrote {name}; next: halfshaft check {name}"));
     }
@@ -49,7 +59,7 @@ fn new_file(new: &New, common: &Common) -> Result<(), Failure> {
 }
 
 /// One page for the program and one for each command.
-fn manual(folder: &Path, common: &Common) -> Result<(), Failure> {
+fn manual(Folder { folder, quiet }: &Folder) -> Result<(), Failure> {
     let io = |error: std::io::Error| Failure::Output {
         message: format!("cannot write in {}: {error}", folder.display()),
         advice: None,
@@ -70,7 +80,7 @@ fn manual(folder: &Path, common: &Common) -> Result<(), Failure> {
         clap_mangen::Man::new(command).render(&mut text).map_err(io)?;
         save(&folder.join(format!("{name}.1")), &text)?;
     }
-    if !common.quiet {
+    if !quiet.quiet {
         console::note(&format!("wrote the manual pages into {}", folder.display()));
     }
     Ok(())

@@ -7,6 +7,7 @@ pub mod run;
 
 use std::path::Path;
 
+use halfshaft::results::Header;
 use halfshaft::{Answer, Driveline, SetFlag, Target, load, load_embedded, present, write};
 
 use crate::args::{Common, Model};
@@ -16,7 +17,8 @@ use crate::failure::Failure;
 use crate::watch::Watch;
 
 /// The line that a command is about, with the settings of the command.
-pub fn load_line(model: &Model, common: &Common) -> Result<Driveline, Failure> {
+pub fn load_line(model: &Model) -> Result<Driveline, Failure> {
+    let common = &model.common;
     let settings: Vec<SetFlag> = common.settings.iter().cloned().map(SetFlag).collect();
     let loaded = match &model.model {
         Some(path) => load(path, &settings)?,
@@ -29,13 +31,13 @@ pub fn load_line(model: &Model, common: &Common) -> Result<Driveline, Failure> {
 }
 
 /// Where the answer goes, tried before any work is done.
-pub fn target(common: &Common) -> Result<Option<Target>, Failure> {
-    common.out.as_deref().map(prepare).transpose()
+pub fn target(common: &Common, analysis: &str) -> Result<Option<Target>, Failure> {
+    common.out.as_deref().map(|path| prepare(path, analysis)).transpose()
 }
 
-/// A target that a path means.
-pub fn prepare(path: &Path) -> Result<Target, Failure> {
-    Target::prepare(path).map_err(|error| Failure::bad_target(&error))
+/// A target that a path means for the answer of an analysis.
+pub fn prepare(path: &Path, analysis: &str) -> Result<Target, Failure> {
+    Target::prepare(path, analysis).map_err(|error| Failure::bad_target(&error))
 }
 
 /// Prints and writes an answer, and says whether it ended early.
@@ -69,6 +71,11 @@ pub fn deliver(
     } else if !common.quiet {
         header.warnings.iter().for_each(|warning| console::warn(warning));
     }
+    conclude(header)
+}
+
+/// Whether an answer is all that was asked for; where not, that is what the program ends with.
+fn conclude(header: &Header) -> Result<(), Failure> {
     if header.termination.is_complete() {
         return Ok(());
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use halfshaft::{Answer, present, write};
 
 use super::{load_line, prepare};
-use crate::args::{Common, Report};
+use crate::args::Report;
 use crate::console;
 use crate::failure::Failure;
 use crate::watch::Watch;
@@ -14,11 +14,12 @@ use crate::watch::Watch;
 const DEFAULT: &str = "report.html";
 
 /// Asks everything and writes the page.
-pub fn run(report: &Report, common: &Common, watch: &Watch) -> Result<(), Failure> {
-    let line = load_line(&report.model, common)?;
+pub fn run(report: &Report, watch: &Watch) -> Result<(), Failure> {
+    let common = &report.model.common;
+    let line = load_line(&report.model)?;
     // JSON goes to standard output; a page is then only written where asked for.
     let path = common.out.as_deref().or((!common.json).then_some(Path::new(DEFAULT)));
-    let target = path.map(prepare).transpose()?;
+    let target = path.map(|path| prepare(path, "report")).transpose()?;
     let answer = Answer::Report(Box::new(halfshaft::report(&line, watch)?));
     if target.is_none() {
         return super::deliver(&answer, None, common, watch);
@@ -36,5 +37,8 @@ pub fn run(report: &Report, common: &Common, watch: &Watch) -> Result<(), Failur
             console::note(&format!("wrote {}", names.join(", ")));
         }
     }
-    if common.json { super::deliver(&answer, None, common, watch) } else { Ok(()) }
+    if common.json {
+        return super::deliver(&answer, None, common, watch);
+    }
+    super::conclude(answer.header())
 }

@@ -4,12 +4,13 @@ use halfshaft::model::study::read_study;
 use halfshaft::{Answer, run_study};
 
 use super::{deliver, target};
-use crate::args::{Common, Run};
+use crate::args::Run;
 use crate::failure::Failure;
 use crate::watch::Watch;
 
 /// Asks all questions of a study.
-pub fn run(run: &Run, common: &Common, watch: &Watch) -> Result<(), Failure> {
+pub fn run(run: &Run, watch: &Watch) -> Result<(), Failure> {
+    let common = &run.common;
     if !common.settings.is_empty() {
         return Err(Failure::Input {
             message: "a study brings its own settings; --set does not reach into it".to_owned(),
@@ -17,7 +18,7 @@ pub fn run(run: &Run, common: &Common, watch: &Watch) -> Result<(), Failure> {
         });
     }
     let study = read_study(&run.study)?;
-    let target = target(common)?;
+    let target = target(common, "run")?;
     let answer = Answer::Study(run_study(&study, watch));
     deliver(&answer, target.as_ref(), common, watch)
 }

@@ -1,5 +1,6 @@
 //! The validated line: its elements, which nodes turn rigidly together, its digest.
 
+mod connection;
 mod digest;
 mod network;
 mod places;

@@ -4,41 +4,81 @@ use std::ops::Range;
 
 use crate::format::CheckedTable;
 
-/// Checked tables of the elements, in the order of the line's element lists.
-pub(crate) struct Places {
-    lists: Vec<(&'static str, Vec<CheckedTable>)>,
-    document: Range<usize>,
+/// Checked tables of the elements, in the order of the line's element lists, and how far what
+/// is unsound in them lets the rest be judged.
+pub(crate) struct Places<'d> {
+    document: &'d CheckedTable,
 }
 
-impl Places {
-    pub(crate) fn new(document: &CheckedTable) -> Self {
-        Self { lists: Vec::new(), document: document.span.clone() }
+/// Lists of the file in the order of [`super::Driveline::element_names`].
+const LISTS: [&str; 4] = ["inertia", "gear", "shaft", "torque"];
+/// Lists that bring nodes, with the keys that name them.
+const NODES: [(&str, &[&str]); 3] =
+    [("inertia", &["name"]), ("gear", &["input", "output"]), ("shaft", &["from", "to"])];
+
+impl<'d> Places<'d> {
+    pub(crate) fn new(document: &'d CheckedTable) -> Self {
+        Self { document }
     }
 
-    /// Elements of one list; an element whose table is unsound is left out, and so is its
-    /// place.
-    pub(crate) fn read<T>(
-        &mut self,
-        document: &CheckedTable,
-        list: &'static str,
-        read: impl Fn(&CheckedTable) -> Option<T>,
-    ) -> Vec<T> {
-        let (elements, tables) = document
-            .tables(list)
-            .iter()
-            .filter_map(|table| Some((read(table)?, table.clone())))
-            .unzip();
-        self.lists.push((list, tables));
-        elements
+    /// Elements of one list, one for each of its tables.
+    pub(crate) fn read<T>(&self, list: &'static str, read: impl Fn(&CheckedTable) -> T) -> Vec<T> {
+        self.document.tables(list).iter().map(read).collect()
     }
 
     /// Place of `key` of an element, or of the element where the key is not written.
     pub(crate) fn key(&self, list: &str, index: usize, key: &str) -> Range<usize> {
-        self.table(list, index).map_or_else(|| self.document.clone(), |table| table.span_of(key))
+        let table = self.table(list, index);
+        table.map_or_else(|| self.document.span.clone(), |table| table.span_of(key))
+    }
+
+    /// Whether the element has a sound `key`.
+    pub(crate) fn has(&self, list: &str, index: usize, key: &str) -> bool {
+        self.table(list, index).is_some_and(|table| table.entry(key).is_some())
+    }
+
+    /// Whether all of the element is sound.
+    pub(crate) fn is_sound(&self, list: &str, index: usize) -> bool {
+        self.table(list, index).is_some_and(CheckedTable::is_sound)
+    }
+
+    /// The same by the element's place among all elements.
+    pub(crate) fn is_sound_at(&self, place: usize) -> bool {
+        let mut tables = LISTS.iter().flat_map(|list| self.document.tables(list));
+        tables.nth(place).is_some_and(CheckedTable::is_sound)
+    }
+
+    /// Whether every element of the list is sound, and none is missing.
+    pub(crate) fn all_sound(&self, list: &str) -> bool {
+        !self.document.lacks_any_of(&[list])
+            && self.document.tables(list).iter().all(CheckedTable::is_sound)
+    }
+
+    /// Whether the file has the list at all.
+    pub(crate) fn mentions(&self, list: &str) -> bool {
+        self.document.mentions(list)
+    }
+
+    /// Whether the names of all elements are known.
+    pub(crate) fn names_known(&self) -> bool {
+        !self.document.lacks_any_of(&LISTS)
+            && LISTS.iter().all(|list| self.all_have(list, &["name"]))
+    }
+
+    /// Whether all nodes are known, and which gears and shafts join them.
+    pub(crate) fn nodes_known(&self) -> bool {
+        let lists = NODES.map(|(list, _)| list);
+        !self.document.lacks_any_of(&lists)
+            && self.document.mentions("inertia")
+            && NODES.iter().all(|(list, keys)| self.all_have(list, keys))
+    }
+
+    fn all_have(&self, list: &str, keys: &[&str]) -> bool {
+        let mut tables = self.document.tables(list).iter();
+        tables.all(|table| keys.iter().all(|key| table.entry(key).is_some()))
     }
 
     fn table(&self, list: &str, index: usize) -> Option<&CheckedTable> {
-        let (_, tables) = self.lists.iter().find(|(name, _)| *name == list)?;
-        tables.get(index)
+        self.document.tables(list).get(index)
     }
 }

@@ -75,16 +75,25 @@ impl Topology {
     /// # Errors
     /// [`TopologyError`] where a loop of gears contradicts itself.
     pub fn of(line: &Driveline) -> Result<Self, TopologyError> {
-        let names = node_names(line);
+        let (topology, mut contradictions) = Self::with_contradictions(line);
+        if contradictions.is_empty() { Ok(topology) } else { Err(contradictions.swap_remove(0)) }
+    }
+
+    /// Nodes and groups of `line`, and every gear that contradicts those before it; such a gear
+    /// joins its nodes all the same.
+    pub(crate) fn with_contradictions(line: &Driveline) -> (Self, Vec<TopologyError>) {
+        let nodes = first_mentions(line);
+        let names: Vec<&str> = nodes.iter().map(|(_, name)| *name).collect();
         let by_name = sorted(&names);
         let find = |name: &str| position(&by_name, |node| names[node], name);
         let mut sets = RatioSets::new(names.len());
+        let mut contradictions = Vec::new();
         for (index, gear) in line.gears.iter().enumerate() {
             let (Some(input), Some(output)) = (find(&gear.input), find(&gear.output)) else {
                 continue; // cannot be: the ends of gears are among the names
             };
             if let Err(given) = sets.join(input, output, gear.ratio) {
-                return Err(TopologyError::GearLoop {
+                contradictions.push(TopologyError::GearLoop {
                     gear: gear.name.clone(),
                     index,
                     input: gear.input.clone(),
@@ -94,12 +103,15 @@ impl Topology {
                 });
             }
         }
-        Ok(Self::assemble(line, &names, by_name, &mut sets))
+        let inertias = nodes.iter().map(|(position, _)| *position);
+        let inertias = inertias.map(|p| Some(p).filter(|p| *p < line.inertias.len())).collect();
+        (Self::assemble(line, &names, inertias, by_name, &mut sets), contradictions)
     }
 
     fn assemble(
         line: &Driveline,
         names: &[&str],
+        inertias: Vec<Option<usize>>,
         by_name: Vec<usize>,
         sets: &mut RatioSets,
     ) -> Self {
@@ -119,16 +131,11 @@ impl Topology {
         let nodes = names
             .iter()
             .zip(&roots)
-            .enumerate()
-            .map(|(node, (name, (root, ratio)))| {
+            .zip(inertias)
+            .map(|((name, (root, ratio)), inertia)| {
                 let group = group_of_root[*root];
                 let (_, reference_ratio) = roots[groups[group].reference];
-                Node {
-                    name: (*name).to_owned(),
-                    inertia: Some(node).filter(|node| *node < line.inertias.len()),
-                    group,
-                    ratio: ratio / reference_ratio,
-                }
+                Node { name: (*name).to_owned(), inertia, group, ratio: ratio / reference_ratio }
             })
             .collect();
         Self { nodes, groups, by_name }
@@ -146,8 +153,9 @@ impl Topology {
     }
 }
 
-/// Names of inertias, then gear ends, then shaft ends, each once, without ground.
-fn node_names(line: &Driveline) -> Vec<&str> {
+/// Names of inertias, then gear ends, then shaft ends, each where it stands first among them all,
+/// without ground.
+fn first_mentions(line: &Driveline) -> Vec<(usize, &str)> {
     let inertias = line.inertias.iter().map(|e| e.name.as_str());
     let gears = line.gears.iter().flat_map(|gear| [gear.input.as_str(), gear.output.as_str()]);
     let shafts = line.shafts.iter().flat_map(|shaft| [shaft.from.as_str(), shaft.to.as_str()]);
@@ -156,7 +164,7 @@ fn node_names(line: &Driveline) -> Vec<&str> {
     first.dedup_by_key(|position| all[*position]);
     first.retain(|position| all[*position] != crate::GROUND);
     first.sort_unstable();
-    first.into_iter().map(|position| all[position]).collect()
+    first.into_iter().map(|position| (position, all[position])).collect()
 }
 
 /// Positions of the names in the order of the names, equal ones in their own order.

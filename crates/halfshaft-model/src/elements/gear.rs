@@ -47,7 +47,7 @@ pub static GEAR: TableSpec = TableSpec {
             "ratios",
             ValueSpec::Quantities(QuantityKind::Number, Sign::NonZero),
             "All ratios that the gearbox offers; `static` and `report` answer for each of them. \
-             Optional.",
+             Optional. Address of the first: `<name>.ratios.1`.",
         ),
         KeySpec::new(
             "stiffness",
@@ -71,18 +71,23 @@ pub static GEAR: TableSpec = TableSpec {
 };
 
 impl Gear {
-    pub(crate) fn read(table: &CheckedTable) -> Option<Self> {
-        Some(Self {
-            name: table.text("name")?.to_owned(),
-            input: table.text("input")?.to_owned(),
-            output: table.text("output")?.to_owned(),
-            ratio: table.number("ratio")?,
+    pub(crate) fn read(table: &CheckedTable) -> Self {
+        Self {
+            name: table.text_or_empty("name"),
+            input: table.text_or_empty("input"),
+            output: table.text_or_empty("output"),
+            ratio: table.number_or_stand_in("ratio"),
             ratios: table.numbers("ratios").to_vec(),
-        })
+        }
     }
 
-    /// The numeric value behind a key of this element.
+    /// The numeric value behind a key of this element: `ratio`, `ratios.1` for the first of
+    /// `ratios`.
     pub fn parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
+        if let Some(number) = key.strip_prefix("ratios.") {
+            let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+            return self.ratios.get_mut(index);
+        }
         match key {
             "ratio" => Some(&mut self.ratio),
             _ => None,

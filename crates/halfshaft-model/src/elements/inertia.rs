@@ -40,12 +40,12 @@ pub static INERTIA: TableSpec = TableSpec {
 };
 
 impl Inertia {
-    pub(crate) fn read(table: &CheckedTable) -> Option<Self> {
-        Some(Self {
-            name: table.text("name")?.to_owned(),
-            inertia_kg_m2: table.number("inertia")?,
+    pub(crate) fn read(table: &CheckedTable) -> Self {
+        Self {
+            name: table.text_or_empty("name"),
+            inertia_kg_m2: table.number_or_stand_in("inertia"),
             damping_nm_s_per_rad: table.number_or("damping", 0.0),
-        })
+        }
     }
 
     /// The numeric value behind a key of this element.

@@ -42,7 +42,8 @@ const SHAPES: &[&str] = &["half-sine", "rectangle", "ramp", "impulse"];
 pub static PULSE: TableSpec = TableSpec {
     name: "pulse",
     doc: "A torque that acts once. half-sine: peak · sin(π u); rectangle: peak; ramp: peak · u, \
-          then the peak ever after; with u = (time - start) / duration. impulse: all at once.",
+          then the peak ever after; with u = (time - start) / duration. impulse: all at once. Its \
+          numbers have the addresses `<name of the torque>.pulse.peak` and so on.",
     keys: &[
         KeySpec::new("shape", ValueSpec::Choice(SHAPES), "How it runs over time.").required(),
         KeySpec::new(
@@ -78,21 +79,22 @@ impl Pulse {
         }
     }
 
-    pub(crate) fn read(table: &CheckedTable) -> Option<Self> {
-        let shape = match table.word("shape")? {
-            "half-sine" => PulseShape::HalfSine,
-            "rectangle" => PulseShape::Rectangle,
-            "ramp" => PulseShape::Ramp,
-            _ => PulseShape::Impulse,
+    pub(crate) fn read(table: &CheckedTable) -> Self {
+        let shape = match table.word("shape") {
+            Some("rectangle") => PulseShape::Rectangle,
+            Some("ramp") => PulseShape::Ramp,
+            Some("impulse") => PulseShape::Impulse,
+            _ => PulseShape::HalfSine,
         };
         let impulse = shape == PulseShape::Impulse;
-        Some(Self {
+        let of = |key, has: bool| if has { table.number_or_stand_in(key) } else { 0.0 };
+        Self {
             shape,
-            peak_nm: if impulse { 0.0 } else { table.number("peak")? },
-            impulse_nm_s: if impulse { table.number("impulse")? } else { 0.0 },
+            peak_nm: of("peak", !impulse),
+            impulse_nm_s: of("impulse", impulse),
             start_s: table.number_or("start", 0.0),
-            duration_s: if impulse { 0.0 } else { table.number("duration")? },
-        })
+            duration_s: of("duration", !impulse),
+        }
     }
 
     /// Torque at time `t`, N·m. An impulse has none: it changes the speed at its start.

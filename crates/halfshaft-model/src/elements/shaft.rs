@@ -92,18 +92,18 @@ pub static SHAFT: TableSpec = TableSpec {
 };
 
 impl Shaft {
-    pub(crate) fn read(table: &CheckedTable) -> Option<Self> {
-        Some(Self {
-            name: table.text("name")?.to_owned(),
-            from: table.text("from")?.to_owned(),
-            to: table.text("to")?.to_owned(),
-            stiffness_nm_per_rad: table.number("stiffness")?,
+    pub(crate) fn read(table: &CheckedTable) -> Self {
+        Self {
+            name: table.text_or_empty("name"),
+            from: table.text_or_empty("from"),
+            to: table.text_or_empty("to"),
+            stiffness_nm_per_rad: table.number_or_stand_in("stiffness"),
             quadratic_nm_per_rad2: table.number_or("quadratic", 0.0),
             cubic_nm_per_rad3: table.number_or("cubic", 0.0),
             quintic_nm_per_rad5: table.number_or("quintic", 0.0),
             septic_nm_per_rad7: table.number_or("septic", 0.0),
             damping_nm_s_per_rad: table.number_or("damping", 0.0),
-        })
+        }
     }
 
     /// Coefficients of the spring torque, ascending from the constant (always zero).

@@ -67,7 +67,8 @@ const PHASE: KeySpec = KeySpec::new(
 /// Keys of one entry of `harmonics = [ ... ]`.
 pub static HARMONIC: TableSpec = TableSpec {
     name: "harmonic",
-    doc: "One more harmonic of a torque.",
+    doc: "One more harmonic of a torque. The numbers of the first one have the addresses \
+          `<name of the torque>.harmonics.1.amplitude`, `.harmonics.1.order` and so on.",
     keys: &[order("Order, cycles per revolution of Ω.").required(), AMPLITUDE.required(), PHASE],
 };
 
@@ -99,12 +100,12 @@ pub static TORQUE: TableSpec = TableSpec {
 };
 
 impl Harmonic {
-    fn read(table: &CheckedTable) -> Option<Self> {
-        Some(Self {
-            order: table.number("order")?,
-            amplitude_nm: table.number("amplitude")?,
+    fn read(table: &CheckedTable) -> Self {
+        Self {
+            order: table.number_or_stand_in("order"),
+            amplitude_nm: table.number_or_stand_in("amplitude"),
             phase_rad: table.number_or("phase", 0.0),
-        })
+        }
     }
 
     fn parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
@@ -118,32 +119,26 @@ impl Harmonic {
 }
 
 impl Torque {
-    pub(crate) fn read(table: &CheckedTable) -> Option<Self> {
+    pub(crate) fn read(table: &CheckedTable) -> Self {
         let main = Harmonic {
             order: table.number_or("order", 1.0),
             amplitude_nm: table.number_or("amplitude", 0.0),
             phase_rad: table.number_or("phase", 0.0),
         };
         let mut harmonics = vec![main];
-        for further in table.tables("harmonics") {
-            harmonics.push(Harmonic::read(further)?);
-        }
+        harmonics.extend(table.tables("harmonics").iter().map(Harmonic::read));
         let mean = match table.word("mean") {
             Some(_) => MeanTorque::Balance,
             None => MeanTorque::Value(table.number_or("mean", 0.0)),
         };
-        let pulse = match table.table("pulse") {
-            Some(pulse) => Some(Pulse::read(pulse)?),
-            None => None,
-        };
-        Some(Self {
-            name: table.text("name")?.to_owned(),
-            on: table.text("on")?.to_owned(),
+        Self {
+            name: table.text_or_empty("name"),
+            on: table.text_or_empty("on"),
             mean,
             harmonics,
             frequency_rad_s: table.number("frequency"),
-            pulse,
-        })
+            pulse: table.table("pulse").map(Pulse::read),
+        }
     }
 
     /// The numeric value behind a key of this element: `mean`, `amplitude`, `pulse.peak`,

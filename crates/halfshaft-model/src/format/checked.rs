@@ -23,14 +23,23 @@ pub(crate) struct Entry {
     pub(crate) value: Checked,
 }
 
+/// Stands for a number that is missing or unsound, so that names and nodes can be judged all the
+/// same. No line with one ever leaves this crate: its finding is an error.
+const STAND_IN: f64 = 1.0;
+
 /// A table whose known and sound keys have been checked; unsound ones are missing here
 /// and present in the diagnostics.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct CheckedTable {
     pub(crate) span: Range<usize>,
     pub(super) entries: Vec<(&'static str, Entry)>,
     /// Keys that were present but unsound, so that "missing" is not said of them.
     pub(super) unsound: Vec<&'static str>,
+    /// Whether there is something in here, other than plain values, that could not be read as
+    /// any key.
+    pub(super) strays: bool,
+    /// Whether there is nothing wrong in here, however deep.
+    pub(super) sound: bool,
 }
 
 impl CheckedTable {
@@ -46,6 +55,26 @@ impl CheckedTable {
     /// Whether the key was written, soundly or not.
     pub(crate) fn mentions(&self, key: &str) -> bool {
         self.entry(key).is_some() || self.unsound.contains(&key)
+    }
+
+    pub(crate) fn is_sound(&self) -> bool {
+        self.sound
+    }
+
+    /// Whether something may be missing here because it could not be read: of these lists of
+    /// tables or of what nobody can tell.
+    pub(crate) fn lacks_any_of(&self, lists: &[&str]) -> bool {
+        self.strays || self.unsound.iter().any(|key| lists.contains(key))
+    }
+
+    /// The text, empty where it is missing or unsound.
+    pub(crate) fn text_or_empty(&self, key: &str) -> String {
+        self.text(key).unwrap_or_default().to_owned()
+    }
+
+    /// The number of a required key.
+    pub(crate) fn number_or_stand_in(&self, key: &str) -> f64 {
+        self.number_or(key, STAND_IN)
     }
 
     pub(crate) fn text(&self, key: &str) -> Option<&str> {

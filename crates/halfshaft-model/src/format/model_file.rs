@@ -1,6 +1,6 @@
 //! The tables of a model file and the way from its text to a [`Driveline`].
 
-use crate::diagnostic::{Diagnostic, Diagnostics, Source, did_you_mean};
+use crate::diagnostic::{Diagnostic, Diagnostics, Source, with_article};
 use crate::driveline::{Driveline, Places, validate};
 use crate::elements::{GEAR, Gear, INERTIA, Inertia, PULSE, Pulse, SHAFT, Shaft, TORQUE, Torque};
 use crate::format::checked::CheckedTable;
@@ -12,7 +12,8 @@ use crate::range::parse_flag_quantity;
 /// The whole model file.
 pub static MODEL: TableSpec = TableSpec {
     name: "",
-    doc: "A driveline. A bare number is in SI; a text carries its unit.",
+    doc: "A driveline. A bare number is in SI; a text carries its unit. Every number has an address \
+          for --set and sweeps: `<element name>.<key>`.",
     keys: &[
         KeySpec::new("format", ValueSpec::Count(1, 1), "Version of this file format: 1.")
             .required(),
@@ -49,31 +50,30 @@ pub fn read_model(
         return Err(found);
     }
     let document = read_document(&text, &MODEL, &mut found);
-    let sound = !found.has_errors();
-    let (mut line, places) = build(&document, &mut found);
-    if sound {
-        // An address can only be judged where all elements could be read.
-        for setting in settings {
-            apply_setting(&mut line, setting, &mut found);
-        }
-        validate(&line, &places, &mut found);
+    for torque in document.tables("torque") {
+        check_pulse(torque, &mut found);
     }
+    let (mut line, places) = build(&document);
+    for setting in settings {
+        apply_setting(&mut line, setting, &places, &mut found);
+    }
+    validate(&line, &places, &mut found);
+    // Whoever mends a file goes through it from top to bottom.
+    found.items.sort_by_key(|item| (item.source, item.span.start));
     if found.has_errors() { Err(found) } else { Ok((line, found)) }
 }
 
-/// Elements of the document with the places of their keys.
-fn build(document: &CheckedTable, found: &mut Diagnostics) -> (Driveline, Places) {
-    for torque in document.tables("torque") {
-        check_pulse(torque, found);
-    }
-    let mut places = Places::new(document);
+/// Elements of the document with the places of their keys. What is unsound keeps its place by a
+/// stand-in, so that the names and nodes of all elements can be judged.
+fn build(document: &CheckedTable) -> (Driveline, Places<'_>) {
+    let places = Places::new(document);
     let line = Driveline {
-        name: document.text("name").unwrap_or_default().to_owned(),
-        description: document.text("description").unwrap_or_default().to_owned(),
-        inertias: places.read(document, "inertia", Inertia::read),
-        gears: places.read(document, "gear", Gear::read),
-        shafts: places.read(document, "shaft", Shaft::read),
-        torques: places.read(document, "torque", Torque::read),
+        name: document.text_or_empty("name"),
+        description: document.text_or_empty("description"),
+        inertias: places.read("inertia", Inertia::read),
+        gears: places.read("gear", Gear::read),
+        shafts: places.read("shaft", Shaft::read),
+        torques: places.read("torque", Torque::read),
     };
     (line, places)
 }
@@ -86,16 +86,17 @@ fn check_pulse(torque: &CheckedTable, found: &mut Diagnostics) {
         return;
     };
     let (needed, useless) = Pulse::needs(shape);
+    let what = format!("{} pulse", with_article(shape));
     for key in needed.iter().filter(|key| !pulse.mentions(key)) {
         let unit =
             PULSE.key(key).and_then(KeySpec::quantity).map_or("", |(kind, _)| kind.si_unit());
         found.push(
-            Diagnostic::error(pulse.span.clone(), format!("a {shape} pulse needs \"{key}\""))
+            Diagnostic::error(pulse.span.clone(), format!("{what} needs \"{key}\""))
                 .hint(format!("add {key} = \"... {unit}\"")),
         );
     }
     for key in useless.iter().filter(|key| pulse.mentions(key)) {
-        let message = format!("a pulse of shape {shape} has no \"{key}\"");
+        let message = format!("{what} has no \"{key}\"");
         found.push(
             Diagnostic::error(pulse.span_of(key), message)
                 .hint(format!("give {}", needed.join(" and "))),
@@ -103,11 +104,17 @@ fn check_pulse(torque: &CheckedTable, found: &mut Diagnostics) {
     }
 }
 
-fn apply_setting(line: &mut Driveline, setting: &SetFlag, found: &mut Diagnostics) {
+fn apply_setting(
+    line: &mut Driveline,
+    setting: &SetFlag,
+    places: &Places,
+    found: &mut Diagnostics,
+) {
     let text = setting.0.as_str();
     let source = found.sources.len();
     found.sources.push(Source::new("--set", text));
-    let Some(at) = text.find('=') else {
+    // Names may hold "=", values never do.
+    let Some(at) = text.rfind('=') else {
         found.push(
             Diagnostic::error(0..text.len(), "a setting must be ADDRESS=VALUE")
                 .hint("e.g. --set \"half-shaft.cubic=-500 N·m/rad³\"")
@@ -123,7 +130,10 @@ fn apply_setting(line: &mut Driveline, setting: &SetFlag, found: &mut Diagnostic
     let parameter = match parameter::resolve(line, address) {
         Ok(parameter) => parameter,
         Err(error) => {
-            found.push(address_diagnostic(&error, line).at(address_span, source));
+            if can_judge(&error, line, places) {
+                let problem = Diagnostic::error(address_span, error.to_string());
+                found.push(problem.hint(error.hint(line)).in_source(source));
+            }
             return;
         }
     };
@@ -149,27 +159,14 @@ fn apply_setting(line: &mut Driveline, setting: &SetFlag, found: &mut Diagnostic
     found.push(problem.in_source(source));
 }
 
-/// An address error as a diagnostic that still lacks its place.
-struct Placeless(Diagnostic);
-
-impl Placeless {
-    fn at(self, span: std::ops::Range<usize>, source: usize) -> Diagnostic {
-        Diagnostic { span, ..self.0 }.in_source(source)
-    }
-}
-
-fn address_diagnostic(error: &AddressError, line: &Driveline) -> Placeless {
-    let hint = match error {
-        AddressError::NoElement { name } => did_you_mean(name, line.element_names())
-            .unwrap_or_else(|| {
-                let names: Vec<_> = line.element_names().collect();
-                format!("elements of this line are {}", names.join(", "))
-            }),
-        AddressError::NoKey { key, known, .. } => did_you_mean(key, known.iter().copied())
-            .unwrap_or_else(|| format!("it has {}", known.join(", "))),
-        AddressError::NoDot { .. } => {
-            "an address is <element name>.<key>, e.g. half-shaft.cubic".to_owned()
+/// Whether an address is wrong whatever the unsound parts of the file were meant to say.
+fn can_judge(error: &AddressError, line: &Driveline, places: &Places) -> bool {
+    match error {
+        AddressError::NoDot { .. } => true,
+        AddressError::NoElement { .. } => places.names_known(),
+        AddressError::NoKey { element, .. } => {
+            let at = line.element_names().position(|name| name == element);
+            at.is_none_or(|at| places.is_sound_at(at))
         }
-    };
-    Placeless(Diagnostic::error(0..0, error.to_string()).hint(hint))
+    }
 }

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::checked::{Checked, CheckedTable, Entry};
 use super::spec::{KeySpec, TableSpec, ValueSpec};
-use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean};
+use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean, with_article};
 use crate::range::parse_range;
 use crate::units::{QuantityKind, Sign, parse_quantity};
 
@@ -18,6 +18,7 @@ pub(crate) fn read_document(
     found: &mut Diagnostics,
 ) -> CheckedTable {
     let (document, errors) = DeTable::parse_recoverable(text);
+    let broken = !errors.is_empty();
     for error in errors {
         let span = error.span().unwrap_or(0..0);
         found.push(
@@ -25,7 +26,10 @@ pub(crate) fn read_document(
                 .hint("the file is TOML: key = value, texts in quotation marks"),
         );
     }
-    check_table(document.get_ref(), document.span(), spec, found)
+    let mut checked = check_table(document.get_ref(), document.span(), spec, found);
+    checked.strays |= broken;
+    checked.sound &= !broken;
+    checked
 }
 
 /// Checks one table after its specification.
@@ -35,13 +39,16 @@ fn check_table(
     spec: &'static TableSpec,
     found: &mut Diagnostics,
 ) -> CheckedTable {
-    let mut checked = CheckedTable { span, entries: Vec::new(), unsound: Vec::new() };
+    let before = found.items.len();
+    let mut checked = CheckedTable { span, ..CheckedTable::default() };
     // The parser keeps keys in alphabetic order; a reader expects findings in file order.
     let mut written: Vec<_> = table.iter().collect();
     written.sort_by_key(|(key, _)| key.span().start);
     for (key, value) in written {
         let Some(key_spec) = spec.key(key.get_ref()) else {
             found.push(unknown_key(key, spec));
+            // It may be meant as one of the lists.
+            checked.strays |= matches!(value.get_ref(), DeValue::Array(_) | DeValue::Table(_));
             continue;
         };
         match check_key(key_spec, key.span(), value, found) {
@@ -55,6 +62,7 @@ fn check_table(
     for key in spec.keys.iter().filter(|key| key.required && !checked.mentions(key.name)) {
         found.push(missing_key(key, spec, &checked.span));
     }
+    checked.sound = found.items.len() == before;
     checked
 }
 
@@ -163,13 +171,9 @@ fn wrong_type<T>(
     found: &mut Diagnostics,
 ) -> Option<T> {
     let actual = value.get_ref().type_str();
-    let message = format!("\"{key}\" must be {wanted}, not {} {actual}", article(actual));
+    let message = format!("\"{key}\" must be {wanted}, not {}", with_article(actual));
     found.push(Diagnostic::error(value.span(), message));
     None
-}
-
-fn article(noun: &str) -> &'static str {
-    if noun.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" }
 }
 
 fn text(key: &KeySpec, value: &Spanned<DeValue<'_>>, found: &mut Diagnostics) -> Option<String> {
@@ -259,10 +263,7 @@ fn check_sign(
     found: &mut Diagnostics,
 ) -> Option<f64> {
     if !value.is_finite() {
-        found.push(
-            Diagnostic::error(span, format!("\"{key}\" must be a finite number"))
-                .hint("leave the key out where there is no limit"),
-        );
+        found.push(Diagnostic::error(span, format!("\"{key}\" must be a finite number")));
         return None;
     }
     if sign.allows(value) {
@@ -309,16 +310,22 @@ fn count(
     most: u32,
     found: &mut Diagnostics,
 ) -> Option<Checked> {
-    let number = match value.get_ref() {
-        DeValue::Integer(number) => whole_number(number),
-        _ => None,
+    let wanted = format!("a whole number from {least} to {most}");
+    let DeValue::Integer(written) = value.get_ref() else {
+        return wrong_type(key.name, value, &wanted, found);
     };
-    match number {
-        Some(number) if number >= f64::from(least) && number <= f64::from(most) => {
-            Some(Checked::Number(number))
-        }
-        _ => wrong_type(key.name, value, &format!("a whole number from {least} to {most}"), found),
+    let number = whole_number(written);
+    if let Some(number) = number.filter(|n| (f64::from(least)..=f64::from(most)).contains(n)) {
+        return Some(Checked::Number(number));
     }
+    // Only the version of a format has no choice.
+    let message = if least == most {
+        format!("this version reads {} = {least}", key.name)
+    } else {
+        format!("\"{}\" must be {wanted}, not {}", key.name, written.as_str())
+    };
+    found.push(Diagnostic::error(value.span(), message));
+    None
 }
 
 fn choice(
@@ -359,6 +366,8 @@ fn tables(
             _ => {
                 let message = format!("\"{}\" must be a list of tables", key.name);
                 found.push(Diagnostic::error(item.span(), message).hint(hint.clone()));
+                // It keeps its place in the list as a table of which nothing is known.
+                checked.push(CheckedTable { span: item.span(), ..CheckedTable::default() });
             }
         }
     }

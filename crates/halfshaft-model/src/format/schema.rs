@@ -72,6 +72,9 @@ fn value(spec: &ValueSpec) -> Value {
     }
 }
 
+/// A text that begins with a number; which units may follow is beyond a pattern.
+const NUMBER_FIRST: &str = "^\\s*[-−+]?\\.?[0-9]";
+
 fn quantity(kind: QuantityKind, sign: Sign) -> Value {
     let mut number = json!({ "type": "number" });
     match sign {
@@ -81,8 +84,9 @@ fn quantity(kind: QuantityKind, sign: Sign) -> Value {
         Sign::Any => {}
     }
     let examples: Vec<String> = match kind {
-        QuantityKind::Number => return number,
+        QuantityKind::Number => vec!["1.5".to_owned(), "2 %".to_owned()],
         _ => kind.examples().iter().map(|unit| format!("1 {unit}")).collect(),
     };
-    json!({ "anyOf": [number, { "type": "string", "examples": examples }] })
+    let text = json!({ "type": "string", "pattern": NUMBER_FIRST, "examples": examples });
+    json!({ "anyOf": [number, text] })
 }

@@ -83,7 +83,8 @@ pub struct InitialValue {
 pub fn parse_initial(text: &str, line: &Driveline) -> Result<InitialValue, OptionError> {
     let fail = |message: String, hint: String| OptionError::new("initial", text, message, hint);
     let example = "e.g. --initial \"half-shaft.twist=1 rad\"";
-    let Some((channel, value)) = text.split_once('=') else {
+    // Names may hold "=", values never do.
+    let Some((channel, value)) = text.rsplit_once('=') else {
         return Err(fail("an initial value is CHANNEL=VALUE".to_owned(), example.to_owned()));
     };
     let channel =

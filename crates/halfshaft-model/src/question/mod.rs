@@ -5,11 +5,14 @@
 
 mod channel;
 mod kinds;
+mod read;
 mod text;
+mod values;
 
 pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
     FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod, ResonanceQuestion,
     ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Start, Verb,
 };
-pub use text::{OptionError, QuestionText, read};
+pub use read::read;
+pub use text::{OptionError, QuestionText};

@@ -65,7 +65,7 @@ impl Reader<'_> {
         for table in document.tables("figure") {
             self.figure(table, &mut study);
         }
-        if study.questions.is_empty() && !self.found.has_errors() {
+        if !document.mentions("question") && !document.mentions("figure") {
             self.found.push(
                 Diagnostic::error(document.span.clone(), "the study asks nothing")
                     .hint("add a [[question]] with name and ask, or a [[figure]]"),
@@ -92,11 +92,11 @@ impl Reader<'_> {
         for question in table.tables("question") {
             study.questions.extend(self.question(question, Some(index)));
         }
-        self.check_unique(table, &study.questions[first..]);
+        self.check_unique(table);
         let comparisons = table
             .tables("compare")
             .iter()
-            .filter_map(|compare| self.comparison(compare, index, first, &study.questions))
+            .filter_map(|compare| self.comparison(compare, table, (index, first), study))
             .collect();
         study.figures.push(StudyFigure {
             name,
@@ -110,11 +110,13 @@ impl Reader<'_> {
         });
     }
 
-    fn check_unique(&mut self, table: &CheckedTable, questions: &[StudyQuestion]) {
+    fn check_unique(&mut self, figure: &CheckedTable) {
+        let questions = figure.tables("question");
         for (index, question) in questions.iter().enumerate() {
-            if questions[..index].iter().any(|other| other.name == question.name) {
-                let message = format!("two questions are named \"{}\"", question.name);
-                self.found.push(Diagnostic::error(table.span_of("question"), message));
+            let Some(name) = question.text("name") else { continue };
+            if questions[..index].iter().any(|other| other.text("name") == Some(name)) {
+                let message = format!("two questions are named \"{name}\"");
+                self.found.push(Diagnostic::error(question.span_of("name"), message));
             }
         }
     }
@@ -180,12 +182,21 @@ impl Reader<'_> {
         source
     }
 
-    /// Takes over the findings of a model, whose sources follow ours.
+    /// Takes over the findings of a model. What several questions run into is told once.
     fn adopt(&mut self, other: Diagnostics) {
-        let offset = self.found.sources.len();
-        self.found.sources.extend(other.sources);
+        let sources = &mut self.found.sources;
+        let places: Vec<usize> = other
+            .sources
+            .into_iter()
+            .map(|source| {
+                sources.iter().position(|known| *known == source).unwrap_or_else(|| {
+                    sources.push(source);
+                    sources.len() - 1
+                })
+            })
+            .collect();
         for mut item in other.items {
-            item.source += offset;
+            item.source = places.get(item.source).copied().unwrap_or_default();
             if !self.found.items.contains(&item) {
                 self.found.items.push(item);
             }
@@ -195,21 +206,22 @@ impl Reader<'_> {
     fn comparison(
         &mut self,
         table: &CheckedTable,
-        figure: usize,
-        first: usize,
-        questions: &[StudyQuestion],
+        figure: &CheckedTable,
+        (index, first): (usize, usize),
+        study: &Study,
     ) -> Option<Comparison> {
+        let ways = ["pointer", "at", "special", "ranking"];
+        if !ways.iter().any(|way| table.mentions(way)) {
+            self.found.push(
+                Diagnostic::error(table.span.clone(), "this comparison picks no value")
+                    .hint("add pointer, at, special or ranking"),
+            );
+        }
         let pick = if let Some(pointer) = table.text("ranking") {
-            Pick::Ranking { figure, pointer: pointer.to_owned() }
+            Pick::Ranking { figure: index, pointer: pointer.to_owned() }
         } else {
-            let question = self.asked(table, first, questions)?;
-            pick(table, question).or_else(|| {
-                self.found.push(
-                    Diagnostic::error(table.span.clone(), "this comparison picks no value")
-                        .hint("add pointer, at, special or ranking"),
-                );
-                None
-            })?
+            let question = self.asked(table, figure, &study.questions[first..])?;
+            pick(table, first + question)?
         };
         let printed = match (table.number("printed"), table.texts("printed_order")) {
             (Some(number), _) => Printed::Number(number),
@@ -224,34 +236,35 @@ impl Reader<'_> {
         })
     }
 
-    /// Index of the question that `of` names, or of the only one.
+    /// Index, among the figure's sound questions, of the one that `of` names or of the only one.
+    /// That a question is unsound has been told where it stands.
     fn asked(
         &mut self,
         table: &CheckedTable,
-        first: usize,
-        questions: &[StudyQuestion],
+        figure: &CheckedTable,
+        sound: &[StudyQuestion],
     ) -> Option<usize> {
-        let own = questions.get(first..).unwrap_or_default();
-        let Some(name) = table.text("of") else {
-            if own.len() == 1 {
-                return Some(first);
+        let names: Vec<&str> =
+            figure.tables("question").iter().filter_map(|question| question.text("name")).collect();
+        let name = match table.text("of") {
+            Some(name) => name,
+            None if names.len() == 1 => names[0],
+            None => {
+                if !table.mentions("of") {
+                    self.found.push(
+                        Diagnostic::error(table.span.clone(), "of which question?")
+                            .hint("add of = \"name of the question\""),
+                    );
+                }
+                return None;
             }
-            self.found.push(
-                Diagnostic::error(table.span.clone(), "of which question?")
-                    .hint("add of = \"name of the question\""),
-            );
-            return None;
         };
-        if let Some(index) = own.iter().position(|question| question.name == name) {
-            return Some(first + index);
-        }
-        // A question that failed has been reported where it stands.
-        if !self.found.has_errors() {
-            let hint = did_you_mean(name, own.iter().map(|question| question.name.as_str()));
+        if !names.contains(&name) {
+            let hint = did_you_mean(name, names.iter().copied());
             let message = format!("no question of this figure is named \"{name}\"");
             self.found.push(Diagnostic::error(table.span_of("of"), message).maybe_hint(hint));
         }
-        None
+        sound.iter().position(|question| question.name == name)
     }
 }
 

@@ -57,6 +57,12 @@ impl Sign {
         }
     }
 
+    /// Whether every finite value between two is allowed.
+    pub fn allows_range(self, from: f64, to: f64) -> bool {
+        let crosses_zero = from.min(to) <= 0.0 && from.max(to) >= 0.0;
+        self.allows(from) && self.allows(to) && !(self == Self::NonZero && crosses_zero)
+    }
+
     /// The rule in words, to follow "must".
     pub fn rule(self) -> &'static str {
         match self {

@@ -16,4 +16,5 @@ mod quantity;
 pub use dimension::Dimension;
 pub use expression::UnitError;
 pub use kind::{QuantityKind, Sign};
+pub(crate) use quantity::unit_of;
 pub use quantity::{Quantity, QuantityError, parse_quantity};

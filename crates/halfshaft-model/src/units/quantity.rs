@@ -60,7 +60,7 @@ impl QuantityError {
                 Some("decimals are written with a point: 0.5".to_owned())
             }
             Self::NoNumber { .. } => Some("write a number and a unit, e.g. \"5 N·m\"".to_owned()),
-            Self::NotFinite { .. } => Some("leave the key out where there is no limit".to_owned()),
+            Self::NotFinite { .. } => None,
             Self::NoUnit { text, kind } => Some(format!(
                 "write \"{} {}\", or the bare number {0} for {1}",
                 text.trim(),
@@ -90,6 +90,12 @@ fn dimension_hint(actual: Dimension, kind: QuantityKind) -> String {
         return format!("the angle does not fit: write {suggestions}");
     }
     format!("write it in {suggestions}")
+}
+
+/// The unit part of a quantity text, if it has one.
+pub(crate) fn unit_of(text: &str) -> Option<&str> {
+    let (_, unit) = number::split(text)?;
+    Some(unit.trim()).filter(|unit| !unit.is_empty())
 }
 
 /// Reads `text` as a number with a unit of the given kind and converts it to SI.

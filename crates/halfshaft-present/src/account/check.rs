@@ -1,6 +1,6 @@
 //! What is told of a line.
 
-use halfshaft_results::{CheckResult, CheckedShaft, CheckedTorque, ReducedInertia};
+use halfshaft_results::{CheckResult, CheckedPulse, CheckedShaft, CheckedTorque, ReducedInertia};
 
 use super::{Account, Grid, chain};
 use crate::words::{MISSING, counted, list, number, plain, quantity};
@@ -158,9 +158,9 @@ fn torques(check: &CheckResult) -> Grid {
         .words("oscillating part", torques.iter().map(oscillation))
         .words(
             "pulse",
-            torques.iter().map(|torque| {
-                torque.pulse.as_ref().map_or_else(|| MISSING.to_owned(), |p| minus(&plain(p)))
-            }),
+            torques
+                .iter()
+                .map(|torque| torque.pulse.as_ref().map_or_else(|| MISSING.to_owned(), pulse)),
         )
         .without_empty_columns()
 }
@@ -170,11 +170,23 @@ pub(crate) fn oscillation(torque: &CheckedTorque) -> String {
     let parts: Vec<String> = torque
         .harmonics
         .iter()
-        .map(|(order, amplitude, _)| {
-            format!("{} at order {}", quantity(*amplitude, 6, "N·m"), number(*order, 4))
+        .map(|harmonic| {
+            let amplitude = quantity(harmonic.amplitude, 6, "N·m");
+            format!("{amplitude} at order {}", number(harmonic.order, 4))
         })
         .collect();
     list(&parts)
+}
+
+/// "half-sine of 120 N·m from 0 s for 0.05 s (3.82 N·m·s)".
+fn pulse(pulse: &CheckedPulse) -> String {
+    let start = quantity(pulse.start, 6, "s");
+    let impulse = quantity(pulse.angular_impulse, 6, "N·m·s");
+    let Some(peak) = pulse.peak else { return format!("impulse of {impulse} at {start}") };
+    let (shape, peak) = (plain(&pulse.shape), quantity(peak, 6, "N·m"));
+    let duration = quantity(pulse.duration, 6, "s");
+    let left = if shape == "ramp" { "which stays".to_owned() } else { impulse };
+    format!("{shape} of {peak} from {start} for {duration} ({left})")
 }
 
 /// A text with a true minus before its numbers.

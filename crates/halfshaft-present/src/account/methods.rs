@@ -76,8 +76,7 @@ pub(crate) fn second_against_first(first: &MethodRow, second: &MethodRow) -> Opt
     if let (Some(one), Some(two)) = (first.phase_error, second.phase_error) {
         let angles = (number(two.abs(), 2), number(one.abs(), 2));
         let text = nearer(one, two);
-        parts
-            .push(format!("{text} on the phase after 2 s ({} against {} rad)", angles.0, angles.1));
+        parts.push(format!("{text} on the phase at 2 s ({} against {} rad)", angles.0, angles.1));
     }
     let equation = second.method.split_once(',').map_or("", |(_, equation)| equation.trim());
     let of = if equation.is_empty() {
@@ -149,7 +148,7 @@ fn errors(rows: &[MethodRow]) -> Grid {
             3,
             compared.iter().map(|row| share(row.largest_difference)),
         )
-        .numbers("phase after 2 s", "rad", 3, compared.iter().map(|row| row.phase_error))
+        .numbers("phase at 2 s", "rad", 3, compared.iter().map(|row| row.phase_error))
 }
 
 /// The single equations solved, each once.

@@ -64,7 +64,10 @@ pub(crate) fn torque(name: &str, metrics: &ShaftMetrics) -> String {
     let before = quantity(metrics.static_torque, 6, "N·m");
     let over = metrics.dynamic_factor.map_or_else(
         || format!("; the shaft carried {before} before"),
-        |factor| format!(": {} the {before} before the shock", times(factor)),
+        |factor| {
+            let way = if factor < 0.0 { ", the other way round" } else { "" };
+            format!(": {} the {before} before the shock{way}", times(factor.abs()))
+        },
     );
     format!(
         "The torque of the {} peaks at {} after {}{over}.",

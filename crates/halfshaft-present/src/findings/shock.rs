@@ -39,9 +39,10 @@ pub(super) fn shock(report: &ReportResult) -> Option<Finding> {
 
 /// How far the torque of a shaft rises.
 fn rise(name: &str, metrics: &ShaftMetrics) -> String {
-    let over = metrics
-        .dynamic_factor
-        .map_or_else(String::new, |factor| format!(", {} the torque before", times(factor)));
+    let over = metrics.dynamic_factor.map_or_else(String::new, |factor| {
+        let way = if factor < 0.0 { " the other way round" } else { "" };
+        format!(", {} the torque before{way}", times(factor.abs()))
+    });
     let peak = quantity(metrics.peak_torque, 4, "N·m");
     format!("The torque of the {} reaches {peak}{over}", plain(name))
 }

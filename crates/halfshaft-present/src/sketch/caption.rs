@@ -104,10 +104,10 @@ fn of_torque(torque: &CheckedTorque) -> Vec<Line> {
         Some(0.0) => {}
         Some(mean) => value(quantity(mean, 5, "N·m")),
     }
-    if let Some((order, amplitude, _)) = torque.harmonics.first() {
+    if let Some(first) = torque.harmonics.first() {
         let more = if torque.harmonics.len() > 1 { ", ..." } else { "" };
-        let amplitude = quantity(*amplitude, 5, "N·m");
-        value(format!("±{amplitude}, order {}{more}", number(*order, 4)));
+        let amplitude = quantity(first.amplitude, 5, "N·m");
+        value(format!("±{amplitude}, order {}{more}", number(first.order, 4)));
     }
     if torque.pulse.is_some() {
         value("and a pulse".to_owned());

@@ -1,107 +1,27 @@
-//! What the command line takes.
+//! The questions with their options, as text.
 
 use std::path::PathBuf;
 
-use clap::builder::styling::{AnsiColor, Styles};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Subcommand};
 use halfshaft::{QuestionText, Verb};
 
-const STYLES: Styles = Styles::styled()
-    .header(AnsiColor::Green.on_default().bold())
-    .usage(AnsiColor::Green.on_default().bold())
-    .literal(AnsiColor::Cyan.on_default().bold())
-    .placeholder(AnsiColor::Cyan.on_default());
-
-/// Nonlinear torsional dynamics of automotive drivelines.
-///
-/// Give it a driveline in one readable file and ask: how far does it wind up, how much torque can
-/// it carry, where does it resonate, how does it take a shock, when does its response jump?
-#[derive(Debug, Parser)]
-#[command(
-    name = "halfshaft",
-    version,
-    styles = STYLES,
-    max_term_width = 100,
-    after_help = "Examples:
-  halfshaft report                        everything about the built-in example, in report.html
-  halfshaft new my-line.toml              a model file to start from
-  halfshaft check my-line.toml            is it sound?
-  halfshaft static my-line.toml           how far does it wind up, how much can it carry?
-  halfshaft resonance my-line.toml --verify --out response.svg
-
-Without MODEL, the built-in two-mass driveline with a softening half-shaft is used.
-Values carry units (\"6420 N·m/rad\", \"2500 rpm\", \"20 ms\"); bare numbers are in SI.
-Exit status: 0 done, 1 the analysis could not be carried out, 2 bad input or usage."
-)]
-pub struct Arguments {
-    #[command(flatten)]
-    pub common: Common,
-    #[command(subcommand)]
-    pub command: Command,
-}
-
-/// Flags of every command.
-#[derive(Args, Debug)]
-pub struct Common {
-    /// Change a number of the model: "half-shaft.cubic=-500 N·m/rad³" (repeatable)
-    #[arg(
-        long = "set",
-        value_name = "ADDRESS=VALUE",
-        global = true,
-        help_heading = "Common flags"
-    )]
-    pub settings: Vec<String>,
-    /// Print the result as JSON and nothing else
-    #[arg(long, global = true, help_heading = "Common flags")]
-    pub json: bool,
-    /// Write the result: .json .csv .parquet .svg .png .html by its ending, all of them into a folder
-    #[arg(long, value_name = "FILE_OR_FOLDER", global = true, help_heading = "Common flags")]
-    pub out: Option<PathBuf>,
-    /// Print nothing but errors
-    #[arg(long, short, global = true, help_heading = "Common flags")]
-    pub quiet: bool,
-}
-
-/// What can be done.
-#[derive(Debug, Subcommand)]
-pub enum Command {
-    #[command(flatten)]
-    Ask(Ask),
-    /// Everything about a driveline in one self-contained HTML page
-    ///
-    /// Summary in plain words first, then static, modes, shock, resonance and fold curves with
-    /// figures to zoom and read off, and the closed forms held against integration.
-    #[command(after_help = "Examples:
-  halfshaft report                               the built-in example, in report.html
-  halfshaft report my-line.toml --out line.html
-  halfshaft report --set \"half-shaft.cubic=642\"")]
-    Report(Report),
-    /// Ask a list of questions from a study file
-    ///
-    /// A study names a model, asks questions of it, draws figures from the answers and compares
-    /// numbers with printed ones. --out FOLDER writes a page, the figures and the comparison.
-    #[command(after_help = "Example:
-  halfshaft run examples/two-mass-driveline/paper.toml --out paper/")]
-    Run(Run),
-    #[command(flatten)]
-    Author(Author),
-}
+use super::common::Common;
 
 /// Questions about a line.
 #[derive(Debug, Subcommand)]
 pub enum Ask {
-    /// Is the model sound? A summary of it
+    /// Is the model sound? A summary of what it says
     #[command(after_help = "Examples:
   halfshaft check my-line.toml
   halfshaft check my-line.toml --out line.svg      a sketch of the line")]
     Check(Model),
-    /// All states of rest under the mean torques, and the torque capacity
+    /// All equilibria under the mean torques, and how much torque each shaft can carry
     #[command(after_help = "Examples:
   halfshaft static my-line.toml
   halfshaft static --set gearbox.ratio=1.79         the built-in example in another gear
   halfshaft static --out wind-up.svg                torque over twist")]
     Static(Model),
-    /// Natural frequencies, damping and mode shapes about the state of rest
+    /// Natural frequencies, damping and mode shapes about the equilibrium
     #[command(after_help = "Examples:
   halfshaft modes my-line.toml
   halfshaft modes --json | jq '.modes[].frequency'")]
@@ -122,9 +42,9 @@ pub enum Ask {
     ///
     /// Methods: full (the whole line; the one to trust), clamped (the load with the drive end
     /// held), published (equation (14) of Han and He 2018 as printed, which doubles stiffness and
-    /// damping), multiple-scales (closed form, --order 1 or 2, of --equation published, clamped or
-    /// twist). In the last three, twist and twist_rate stand for θ, the advance of the load end over the
-    /// equilibrium, and an initial twist is θ(0).
+    /// damping), multiple-scales (closed form; only this one has --order, --equation and
+    /// --printed-velocity). In the last three, twist and twist_rate stand for θ, the advance of the
+    /// load end over the equilibrium, and an initial twist is θ(0).
     #[command(after_help = "Examples:
   halfshaft shock my-line.toml --compare --out shock.svg
   halfshaft shock --method published --initial \"half-shaft.twist=1 rad\"
@@ -142,7 +62,8 @@ pub enum Ask {
     Resonance(Resonance),
     /// Fold curves in a plane of excitation speed and one parameter, with cusps
     ///
-    /// The parameter is any number of the model by its address, or a coefficient of the scaled
+    /// At a fold two responses meet and vanish, so that the line jumps to another one; at a cusp
+    /// two fold curves meet, and beyond it nothing jumps any more. The parameter is any number of the model by its address, or a coefficient of the scaled
     /// equation: mode.alpha, mode.beta, mode.f, mode.omega_1.
     #[command(after_help = "Examples:
   halfshaft folds --parameter \"engine torque.amplitude=100..2000\"
@@ -151,12 +72,14 @@ pub enum Ask {
     Folds(Folds),
 }
 
-/// The model that is asked about.
+/// The model that is asked about, and what to do with the answer.
 #[derive(Args, Debug)]
 pub struct Model {
-    /// Model file (TOML); without it the built-in example
+    /// Model file (TOML) [default: the built-in example]
     #[arg(value_name = "MODEL")]
     pub model: Option<PathBuf>,
+    #[command(flatten)]
+    pub common: Common,
 }
 
 #[derive(Args, Debug)]
@@ -175,16 +98,16 @@ pub struct Simulate {
     /// End of the time history [default: 5s]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub duration: Option<String>,
-    /// Begin at rest (everything zero) or in the stable equilibrium [default: rest]
+    /// State before the initial values: everything zero, or the stable equilibrium [default: rest]
     #[arg(long, value_name = "rest|equilibrium")]
     pub start: Option<String>,
     /// A value at time 0: "half-shaft.twist=1 rad", "engine.speed=900 rpm" (repeatable)
     #[arg(long, value_name = "CHANNEL=VALUE")]
     pub initial: Vec<String>,
-    /// Excitation speed Ω for torques of an order, e.g. 4Hz or 240rpm
+    /// Excitation speed Ω, e.g. 4Hz or 240rpm; without it torques that have an order are silent
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
     pub frequency: Option<String>,
-    /// Output step [default: a two-thousandth of what is recorded]
+    /// Time between two rows of the output [default: a two-thousandth of what is recorded]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub step: Option<String>,
     /// Relative tolerance of the integration [default: 1e-10]
@@ -202,22 +125,22 @@ pub struct Shock {
     /// full, clamped, published or multiple-scales [default: full]
     #[arg(long, value_name = "METHOD")]
     pub method: Option<String>,
-    /// Order of multiple scales, 1 or 2 [default: 2]
+    /// Multiple scales: of which order [default: 2]
     #[arg(long, value_name = "1|2", allow_hyphen_values = true)]
     pub order: Option<String>,
-    /// Which equation multiple scales solve: published, clamped or twist [default: published]
+    /// Multiple scales: of which equation, published, clamped or twist [default: published]
     #[arg(long, value_name = "EQUATION")]
     pub equation: Option<String>,
-    /// First order: leave the slow terms out of the velocity, as the paper's figures do
+    /// Multiple scales, order 1: leave the slow terms out of the velocity, as the paper's figures do
     #[arg(long)]
     pub printed_velocity: bool,
-    /// Disturb by an initial value in place of the model's pulses (repeatable)
+    /// Disturb by "half-shaft.twist=1 rad" in place of the model's pulses (repeatable)
     #[arg(long, value_name = "CHANNEL=VALUE")]
     pub initial: Vec<String>,
     /// End of the time history [default: 5s]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub duration: Option<String>,
-    /// Output step [default: a two-thousandth of the duration]
+    /// Time between two rows of the output [default: a two-thousandth of the duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub step: Option<String>,
     /// Relative tolerance of the integration [default: 1e-10]
@@ -232,7 +155,8 @@ pub struct Shock {
 pub struct Resonance {
     #[command(flatten)]
     pub model: Model,
-    /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz [default: about the resonance]
+    /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz or 3.9..4.4Hz [default: about the
+    /// resonance]
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
     /// How: averaged (closed form of one mode) [default: averaged]
@@ -241,13 +165,13 @@ pub struct Resonance {
     /// Which elastic mode [default: 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub mode: Option<String>,
-    /// Which order of the torques [default: every order that meets the mode in the range]
+    /// Which order of the torques excites [default: every one that meets the mode in the range]
     #[arg(long, value_name = "ORDER", allow_hyphen_values = true)]
     pub order: Option<String>,
     /// At how many speeds all responses are listed [default: 1000]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub points: Option<String>,
-    /// Hold chosen responses against periodic orbits of the full equations
+    /// Check chosen responses against periodic orbits of the full equations
     #[arg(long)]
     pub verify: bool,
 }
@@ -256,10 +180,10 @@ pub struct Resonance {
 pub struct Folds {
     #[command(flatten)]
     pub model: Model,
-    /// The other axis: "half-shaft.cubic=-700..0"
+    /// The other axis (needed): "half-shaft.cubic=-700..0"
     #[arg(long, value_name = "ADDRESS=A..B")]
     pub parameter: Option<String>,
-    /// Range of the excitation speed Ω [default: all]
+    /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz or 3.9..4.4Hz [default: all]
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
     /// How: averaged (closed form of one mode) [default: averaged]
@@ -268,7 +192,7 @@ pub struct Folds {
     /// Which elastic mode [default: 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub mode: Option<String>,
-    /// Which order of the torques [default: the one that drives the mode most]
+    /// Which order of the torques excites [default: the one that drives the mode most]
     #[arg(long, value_name = "ORDER", allow_hyphen_values = true)]
     pub order: Option<String>,
     /// About how many points describe a curve [default: 200]
@@ -276,75 +200,19 @@ pub struct Folds {
     pub points: Option<String>,
 }
 
-#[derive(Args, Debug)]
-pub struct Report {
-    #[command(flatten)]
-    pub model: Model,
-}
-
-#[derive(Args, Debug)]
-pub struct Run {
-    /// Study file (TOML)
-    #[arg(value_name = "STUDY")]
-    pub study: PathBuf,
-}
-
-/// Helpers for whoever writes model files.
-#[derive(Debug, Subcommand)]
-pub enum Author {
-    /// Write a model file to start from
-    #[command(after_help = "Example:
-  halfshaft new my-line.toml")]
-    New(New),
-    /// Print the JSON schema of model or study files, for editors
-    #[command(after_help = "Example:
-  halfshaft schema > halfshaft.schema.json     then, at the head of a model file:
-  #:schema halfshaft.schema.json")]
-    Schema(Schema),
-    /// Print shell completions
-    #[command(after_help = "Example:
-  halfshaft completions bash > ~/.local/share/bash-completion/completions/halfshaft")]
-    Completions(Completions),
-    /// Write the manual pages into a folder
-    #[command(after_help = "Example:
-  halfshaft man ~/.local/share/man/man1")]
-    Man(Man),
-    /// Write the reference pages (Markdown) into a folder
-    #[command(hide = true)]
-    Reference(Man),
-}
-
-#[derive(Args, Debug)]
-pub struct New {
-    /// File to write [default: line.toml]
-    #[arg(value_name = "FILE", default_value = "line.toml", hide_default_value = true)]
-    pub file: PathBuf,
-    /// Overwrite a file that is there already
-    #[arg(long)]
-    pub force: bool,
-}
-
-#[derive(Args, Debug)]
-pub struct Schema {
-    /// Of which file: model or study
-    #[arg(value_name = "model|study", default_value = "model", value_parser = ["model", "study"])]
-    pub of: String,
-}
-
-#[derive(Args, Debug)]
-pub struct Completions {
-    /// Which shell
-    pub shell: clap_complete::Shell,
-}
-
-#[derive(Args, Debug)]
-pub struct Man {
-    /// Folder to write into
-    #[arg(value_name = "FOLDER", default_value = ".")]
-    pub folder: PathBuf,
-}
-
 impl Ask {
+    /// The model, to complete its flags.
+    pub fn model_mut(&mut self) -> &mut Model {
+        match self {
+            Self::Check(model) | Self::Static(model) => model,
+            Self::Modes(modes) => &mut modes.model,
+            Self::Simulate(simulate) => &mut simulate.model,
+            Self::Shock(shock) => &mut shock.model,
+            Self::Resonance(resonance) => &mut resonance.model,
+            Self::Folds(folds) => &mut folds.model,
+        }
+    }
+
     /// The verb, the model and the options in words.
     pub fn question(&self) -> (Verb, &Model, QuestionText) {
         let none = QuestionText::default();

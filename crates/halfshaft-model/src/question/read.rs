@@ -1,0 +1,227 @@
+//! From the words of a question to the question.
+
+use super::kinds::{
+    FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceQuestion, ShockEquation,
+    ShockMethod, ShockQuestion, SimulateQuestion, Verb,
+};
+use super::text::{OptionError, QuestionText};
+use super::values::Reader;
+use crate::driveline::Driveline;
+use crate::parameter::AddressError;
+use crate::range::parse_range;
+use crate::units::{QuantityKind, Sign};
+
+/// Reads a question about `line`.
+///
+/// # Errors
+/// Every option that is wrong.
+pub fn read(
+    verb: Verb,
+    text: &QuestionText,
+    line: &Driveline,
+) -> Result<Question, Vec<OptionError>> {
+    let mut reader = Reader { text, line, errors: Vec::new() };
+    let question = match verb {
+        Verb::Check => Question::Check,
+        Verb::Static => Question::Static,
+        Verb::Modes => Question::Modes(ModesQuestion {
+            equilibrium: reader.count("equilibrium", text.equilibrium.as_deref(), 1, 10_000),
+        }),
+        Verb::Simulate => Question::Simulate(reader.simulate()),
+        Verb::Shock => Question::Shock(reader.shock()),
+        Verb::Resonance => Question::Resonance(reader.resonance()),
+        Verb::Folds => match reader.folds() {
+            Some(folds) => Question::Folds(folds),
+            None => return Err(reader.errors),
+        },
+    };
+    if reader.errors.is_empty() { Ok(question) } else { Err(reader.errors) }
+}
+
+impl Reader<'_> {
+    fn simulate(&mut self) -> SimulateQuestion {
+        let default = SimulateQuestion::default();
+        let text = self.text;
+        let duration = self.duration(default.duration);
+        let record = self.record(duration);
+        let recorded = record.map(|(from, to)| to - from).or(duration);
+        SimulateQuestion {
+            duration: duration.unwrap_or(default.duration),
+            start: self.start(),
+            initial: self.initial(),
+            frequency: self.quantity(
+                "frequency",
+                text.frequency.as_deref(),
+                QuantityKind::Speed,
+                Sign::Positive,
+            ),
+            step: self.step(recorded),
+            tolerance: self.tolerance(default.tolerance),
+            record,
+        }
+    }
+
+    fn shock(&mut self) -> ShockQuestion {
+        let default = ShockQuestion::default();
+        let text = self.text;
+        let duration = self.duration(default.duration);
+        let methods = [
+            ("full", ShockMethod::Full),
+            ("clamped", ShockMethod::Clamped),
+            ("published", ShockMethod::Published),
+            ("multiple-scales", ShockMethod::MultipleScales),
+        ];
+        let equations = [
+            ("published", ShockEquation::Published),
+            ("clamped", ShockEquation::Clamped),
+            ("twist", ShockEquation::Twist),
+        ];
+        let errors = self.errors.len();
+        let method = self.choice("method", text.method.as_deref(), &methods);
+        if self.errors.len() == errors {
+            self.unused_by(method.unwrap_or_default());
+        }
+        let order = self.count("order", text.order.as_deref(), 1, 2);
+        if text.printed_velocity && order != Some(1) {
+            let message = "the paper prints a velocity without slow terms at first order only";
+            let hint = "add --order 1";
+            self.errors.push(OptionError::new("printed-velocity", "", message, hint));
+        }
+        ShockQuestion {
+            method: method.unwrap_or_default(),
+            order: if order == Some(1) { 1 } else { default.order },
+            equation: self
+                .choice("equation", text.equation.as_deref(), &equations)
+                .unwrap_or_default(),
+            printed_velocity: text.printed_velocity,
+            initial: self.initial(),
+            duration: duration.unwrap_or(default.duration),
+            step: self.step(duration),
+            tolerance: self.tolerance(default.tolerance),
+            compare: text.compare,
+        }
+    }
+
+    /// Options that say nothing to a method of `shock` are mistakes: whoever wrote one expects an
+    /// effect. A tolerance is none of them: it bounds an error that a closed form does not make.
+    fn unused_by(&mut self, method: ShockMethod) {
+        let text = self.text;
+        let mut refuse = |option, written: Option<&str>, message: &str, hint: &str| {
+            if let Some(written) = written {
+                self.errors.push(OptionError::new(option, written, message, hint));
+            }
+        };
+        if method == ShockMethod::MultipleScales {
+            return;
+        }
+        let message = "only the method multiple-scales uses it";
+        let hint = "add --method multiple-scales, or leave it out";
+        refuse("order", text.order.as_deref(), message, hint);
+        refuse("equation", text.equation.as_deref(), message, hint);
+        refuse("printed-velocity", text.printed_velocity.then_some(""), message, hint);
+    }
+
+    fn resonance(&mut self) -> ResonanceQuestion {
+        let default = ResonanceQuestion::default();
+        let text = self.text;
+        ResonanceQuestion {
+            frequency: self.speeds(),
+            method: self.resonance_method(),
+            mode: self.count("mode", text.mode.as_deref(), 1, 10_000).unwrap_or(default.mode),
+            order: self.excitation_order(),
+            points: self
+                .count("points", text.points.as_deref(), 2, 1_000_000)
+                .unwrap_or(default.points),
+            verify: text.verify,
+        }
+    }
+
+    fn folds(&mut self) -> Option<FoldsQuestion> {
+        let text = self.text;
+        let frequency = self.speeds();
+        let method = self.resonance_method();
+        let mode = self.count("mode", text.mode.as_deref(), 1, 10_000).unwrap_or(1);
+        let order = self.excitation_order();
+        let points = self.count("points", text.points.as_deref(), 8, 1_000_000).unwrap_or(200);
+        let parameter = self.parameter()?;
+        Some(FoldsQuestion { frequency, parameter, method, mode, order, points })
+    }
+
+    /// The parameter axis; errors are noted and give `None`.
+    fn parameter(&mut self) -> Option<ParameterRange> {
+        let example = "e.g. --parameter \"half-shaft.cubic=-700..0\"";
+        let Some(text) = self.text.parameter.as_deref() else {
+            let message = "which parameter, and from where to where?";
+            self.errors.push(OptionError::new("parameter", "", message, example));
+            return None;
+        };
+        // Names may hold "=", values never do.
+        let Some((address, range)) = text.rsplit_once('=') else {
+            let message = "a parameter range is ADDRESS=A..B";
+            self.errors.push(OptionError::new("parameter", text, message, example));
+            return None;
+        };
+        match self.parameter_range(address.trim(), range) {
+            Ok(range) => Some(range),
+            Err((message, hint)) => {
+                self.errors.push(OptionError::new("parameter", text, message, hint));
+                None
+            }
+        }
+    }
+
+    /// A range of legal values of an address, or what is wrong and a hint.
+    fn parameter_range(
+        &self,
+        address: &str,
+        range: &str,
+    ) -> Result<ParameterRange, (String, String)> {
+        let plain = |message: String| (message, String::new());
+        let coefficient = mode_coefficient(address, self.line)?;
+        let parameter = match coefficient {
+            Some(_) => None,
+            None => Some(self.line.parameter(address).map_err(|error| {
+                let hint = format!("{}, or {COEFFICIENTS}", error.hint(self.line));
+                let elsewhere = matches!(error, AddressError::NoElement { .. });
+                let hint = if elsewhere { hint } else { error.hint(self.line) };
+                (error.to_string(), hint)
+            })?),
+        };
+        let kind = parameter.as_ref().map_or(QuantityKind::Number, |parameter| parameter.kind);
+        let (from, to) = parse_range(range, kind)
+            .map_err(|error| (error.to_string(), error.hint().unwrap_or_default()))?;
+        let sign = coefficient.or(parameter.as_ref().map(|p| p.sign)).unwrap_or(Sign::Any);
+        if !sign.allows_range(from, to) {
+            return Err(plain(format!("\"{address}\" must {}", sign.rule())));
+        }
+        for end in [from, to] {
+            if let Some(Err(error)) = parameter.as_ref().map(|p| self.line.with(p, end)) {
+                return Err(plain(error.to_string()));
+            }
+        }
+        Ok(ParameterRange { address: address.to_owned(), from, to })
+    }
+}
+
+/// The addresses of the mode's coefficients, for messages.
+const COEFFICIENTS: &str =
+    "one of the mode's coefficients mode.alpha, mode.beta, mode.f, mode.omega_1";
+
+/// The signs that a coefficient of the mode may have, by its address; `None` where the address is
+/// none of a mode. Their units mix time and angle in ways that no flag needs, so their values are
+/// bare numbers.
+fn mode_coefficient(address: &str, line: &Driveline) -> Result<Option<Sign>, (String, String)> {
+    let Some(name) = address.strip_prefix("mode.") else { return Ok(None) };
+    let sign = match name {
+        "alpha" => Sign::Any,
+        "beta" | "f" => Sign::NonNegative,
+        "omega_1" => Sign::Positive,
+        // An element may have that name as well.
+        _ if line.element_names().any(|element| element == "mode") => return Ok(None),
+        _ => {
+            let message = format!("the mode has no coefficient \"{name}\"");
+            return Err((message, format!("give {COEFFICIENTS}")));
+        }
+    };
+    Ok(Some(sign))
+}

@@ -1,0 +1,194 @@
+//! One option of a question at a time: its value, or what is wrong with it.
+
+use super::channel::{InitialValue, parse_initial};
+use super::kinds::{ResonanceMethod, Start};
+use super::text::{OptionError, QuestionText};
+use crate::diagnostic::did_you_mean;
+use crate::driveline::Driveline;
+use crate::range::{parse_flag_quantity, parse_range};
+use crate::units::{QuantityKind, Sign};
+
+/// Most samples that one answer may hold: eight columns of them are a gigabyte.
+const MOST_SAMPLES: f64 = 2e7;
+
+/// Reads options about a line and collects what is wrong with them.
+pub(super) struct Reader<'q> {
+    pub(super) text: &'q QuestionText,
+    pub(super) line: &'q Driveline,
+    pub(super) errors: Vec<OptionError>,
+}
+
+impl Reader<'_> {
+    /// The duration, s; `None` where it is written but wrong.
+    pub(super) fn duration(&mut self, default: f64) -> Option<f64> {
+        let text = self.text.duration.as_deref();
+        let read = self.quantity("duration", text, QuantityKind::Time, Sign::Positive);
+        if text.is_none() { Some(default) } else { read }
+    }
+
+    /// The times to keep, which must lie within the run.
+    pub(super) fn record(&mut self, duration: Option<f64>) -> Option<(f64, f64)> {
+        let text = self.text.record.as_deref();
+        let (from, to) = self.range("record", text, QuantityKind::Time)?;
+        if let Some(duration) = duration.filter(|duration| from < 0.0 || to > *duration) {
+            let message = "the recorded times lie outside the run";
+            let hint = format!("the run lasts from 0 s to {duration} s");
+            self.errors.push(OptionError::new("record", text.unwrap_or(""), message, hint));
+        }
+        Some((from, to))
+    }
+
+    pub(super) fn speeds(&mut self) -> Option<(f64, f64)> {
+        let range = self.range("frequency", self.text.frequency.as_deref(), QuantityKind::Speed);
+        if let Some((from, _)) = range
+            && from < 0.0
+        {
+            let written = self.text.frequency.clone().unwrap_or_default();
+            let message = "excitation speeds begin at zero";
+            self.errors.push(OptionError::new("frequency", written, message, ""));
+        }
+        range
+    }
+
+    pub(super) fn resonance_method(&mut self) -> ResonanceMethod {
+        let text = self.text.method.as_deref();
+        if let Some(planned @ ("harmonic-balance" | "first-harmonic")) = text {
+            let message = format!("{planned} is not available in this version");
+            let hint = "this version answers in closed form: --method averaged";
+            self.errors.push(OptionError::new("method", planned, message, hint));
+            return ResonanceMethod::Averaged;
+        }
+        let methods = [("averaged", ResonanceMethod::Averaged)];
+        self.choice("method", text, &methods).unwrap_or_default()
+    }
+
+    pub(super) fn excitation_order(&mut self) -> Option<f64> {
+        let text = self.text.order.as_deref();
+        self.quantity("order", text, QuantityKind::Number, Sign::Positive)
+    }
+
+    pub(super) fn start(&mut self) -> Start {
+        let starts = [("rest", Start::Rest), ("equilibrium", Start::Equilibrium)];
+        self.choice("start", self.text.start.as_deref(), &starts).unwrap_or_default()
+    }
+
+    pub(super) fn initial(&mut self) -> Vec<InitialValue> {
+        let mut values: Vec<InitialValue> = Vec::new();
+        for text in &self.text.initial {
+            match parse_initial(text, self.line) {
+                Ok(value) if values.iter().any(|other| other.channel == value.channel) => {
+                    let message = format!("{} is given twice", value.channel.name());
+                    self.errors.push(OptionError::new("initial", text, message, ""));
+                }
+                Ok(value) => values.push(value),
+                Err(error) => self.errors.push(error),
+            }
+        }
+        values
+    }
+
+    /// The output step; `recorded` is `None` where how long it is cannot be told.
+    pub(super) fn step(&mut self, recorded: Option<f64>) -> Option<f64> {
+        let text = self.text.step.as_deref();
+        let step = self.quantity("step", text, QuantityKind::Time, Sign::Positive)?;
+        let recorded = recorded?;
+        if recorded / step > MOST_SAMPLES {
+            let message = format!("{recorded} s in steps of {step} s are too many samples");
+            let hint = format!("at most {MOST_SAMPLES:.0} samples; take a larger step or --record");
+            self.errors.push(OptionError::new("step", text.unwrap_or(""), message, hint));
+        }
+        if step > recorded {
+            let message = format!("the step is longer than the {recorded} s that are recorded");
+            let hint = "take a smaller step or a longer --duration";
+            self.errors.push(OptionError::new("step", text.unwrap_or(""), message, hint));
+        }
+        Some(step)
+    }
+
+    pub(super) fn tolerance(&mut self, default: f64) -> f64 {
+        let text = self.text.tolerance.as_deref();
+        let tolerance = self.quantity("tolerance", text, QuantityKind::Number, Sign::Positive);
+        match tolerance {
+            Some(tolerance) if !(1e-14..=1e-1).contains(&tolerance) => {
+                let hint = "from 1e-14 to 0.1; the default is 1e-10";
+                let message = "a tolerance outside what the integrator can hold";
+                self.errors.push(OptionError::new("tolerance", text.unwrap_or(""), message, hint));
+                default
+            }
+            Some(tolerance) => tolerance,
+            None => default,
+        }
+    }
+
+    pub(super) fn quantity(
+        &mut self,
+        option: &'static str,
+        text: Option<&str>,
+        kind: QuantityKind,
+        sign: Sign,
+    ) -> Option<f64> {
+        let text = text?;
+        let problem = match parse_flag_quantity(text, kind) {
+            Ok(value) if sign.allows(value) => return Some(value),
+            Ok(_) => OptionError::new(option, text, format!("it must {}", sign.rule()), ""),
+            Err(error) => {
+                let hint = error.hint().unwrap_or_default();
+                OptionError::new(option, text, error.to_string(), hint)
+            }
+        };
+        self.errors.push(problem);
+        None
+    }
+
+    fn range(
+        &mut self,
+        option: &'static str,
+        text: Option<&str>,
+        kind: QuantityKind,
+    ) -> Option<(f64, f64)> {
+        let text = text?;
+        match parse_range(text, kind) {
+            Ok(range) => Some(range),
+            Err(error) => {
+                let hint = error.hint().unwrap_or_default();
+                self.errors.push(OptionError::new(option, text, error.to_string(), hint));
+                None
+            }
+        }
+    }
+
+    pub(super) fn count(
+        &mut self,
+        option: &'static str,
+        text: Option<&str>,
+        least: usize,
+        most: usize,
+    ) -> Option<usize> {
+        let text = text?;
+        match text.trim().parse::<usize>() {
+            Ok(number) if (least..=most).contains(&number) => Some(number),
+            _ => {
+                let message = format!("a whole number from {least} to {most} is wanted");
+                self.errors.push(OptionError::new(option, text, message, ""));
+                None
+            }
+        }
+    }
+
+    pub(super) fn choice<T: Copy>(
+        &mut self,
+        option: &'static str,
+        text: Option<&str>,
+        choices: &[(&str, T)],
+    ) -> Option<T> {
+        let text = text?;
+        if let Some((_, choice)) = choices.iter().find(|(word, _)| *word == text) {
+            return Some(*choice);
+        }
+        let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
+        let hint = did_you_mean(text, words.iter().copied())
+            .unwrap_or_else(|| format!("choose from {}", words.join(", ")));
+        self.errors.push(OptionError::new(option, text, format!("no such {option}"), hint));
+        None
+    }
+}

@@ -1,0 +1,144 @@
+//! Addresses and options: what is accepted, and what is refused with which hint.
+
+use halfshaft_model::format::{MODEL, json_schema};
+use halfshaft_model::question::{OptionError, QuestionText, Verb, read};
+use halfshaft_model::{Driveline, SetFlag, Source, embedded, read_model};
+
+fn example_with(from: &str, to: &str) -> Driveline {
+    let text = embedded::example().text;
+    assert!(text.contains(from), "the example has {from}");
+    let source = Source::new("line.toml", text.replacen(from, to, 1));
+    read_model(source, &[]).unwrap_or_else(|found| panic!("{}", found.plain())).0
+}
+
+fn example() -> Driveline {
+    read_model(embedded::example(), &[]).expect("is sound").0
+}
+
+fn folds(line: &Driveline, parameter: &str) -> Result<(f64, f64), Vec<OptionError>> {
+    let text = QuestionText { parameter: Some(parameter.to_owned()), ..QuestionText::default() };
+    match read(Verb::Folds, &text, line)? {
+        halfshaft_model::question::Question::Folds(folds) => {
+            Ok((folds.parameter.from, folds.parameter.to))
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+// Source: the contract: "Every numeric key has one" address.
+#[test]
+fn every_number_of_a_model_has_an_address() {
+    let harmonics = "amplitude = \"40 N·m\"\n\
+                     harmonics = [ { order = 2, amplitude = 60 }, { order = 0.5, amplitude = 7 } ]";
+    let line = example_with("amplitude = \"40 N·m\"", harmonics);
+    for (address, value) in [
+        ("engine torque.amplitude", 40.0),
+        ("engine torque.harmonics.1.amplitude", 60.0),
+        ("engine torque.harmonics.1.order", 2.0),
+        ("engine torque.harmonics.2.amplitude", 7.0),
+        ("engine torque.harmonics.2.phase", 0.0),
+        ("road load.pulse.peak", -12_000.0),
+        ("road load.pulse.duration", 0.05),
+        ("gearbox.ratios.1", 5.82),
+        ("gearbox.ratios.5", 0.64),
+    ] {
+        let parameter = line.parameter(address).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(parameter.value(&line), Some(value), "{address}");
+        let changed = line.with(&parameter, 3.5).expect("is allowed");
+        assert_eq!(parameter.value(&changed), Some(3.5), "{address}");
+    }
+    for (address, hint) in [
+        ("engine torque.harmonics.0.amplitude", "harmonics.1.amplitude"),
+        ("engine torque.harmonics.3.order", "harmonics.1.order"),
+        ("road load.peak", "\"road load.pulse.peak\""),
+        ("gearbox.ratios.6", "ratios.1"),
+        ("road load.pulse.impulse", "pulse.peak"),
+    ] {
+        let error = line.parameter(address).expect_err("leads nowhere");
+        assert!(error.hint(&line).contains(hint), "{address}: {}", error.hint(&line));
+    }
+}
+
+#[test]
+fn a_range_must_hold_legal_values_only() {
+    let line = example();
+    for (parameter, words) in [
+        ("vehicle.inertia=-5..100", "\"vehicle.inertia\" must be more than zero"),
+        ("vehicle.inertia=0..100", "must be more than zero"),
+        ("half-shaft.damping=-1..1", "must not be negative"),
+        ("gearbox.ratio=-1..1", "must not be zero"),
+        ("mode.beta=-1..1", "must not be negative"),
+        ("mode.omega_1=0..1", "must be more than zero"),
+    ] {
+        let errors = folds(&line, parameter).expect_err("is not legal");
+        assert!(errors[0].message.contains(words), "{parameter}: {errors:?}");
+    }
+    assert_eq!(folds(&line, "half-shaft.cubic=-700..0"), Ok((-700.0, 0.0)));
+    assert_eq!(folds(&line, "gearbox.ratio=-2..-1"), Ok((-2.0, -1.0)));
+    assert_eq!(folds(&line, "mode.f=0..20"), Ok((0.0, 20.0)));
+}
+
+#[test]
+fn a_wrong_coefficient_of_the_mode_is_told_the_right_ones() {
+    for parameter in ["mode.g=1..2", "mode.=1..2"] {
+        let errors = folds(&example(), parameter).expect_err("is none");
+        assert!(errors[0].message.contains("the mode has no coefficient"), "{errors:?}");
+        assert!(errors[0].hint.contains("mode.alpha, mode.beta, mode.f, mode.omega_1"));
+    }
+}
+
+#[test]
+fn a_name_may_hold_an_equals_sign() {
+    let line = example_with("name = \"half-shaft\"", "name = \"k = 0\"");
+    assert_eq!(folds(&line, "k = 0.damping=1..2"), Ok((1.0, 2.0)));
+    let text = embedded::example().text.replacen("\"half-shaft\"", "\"k = 0\"", 1);
+    let setting = SetFlag("k = 0.cubic = -5 N·m/rad³".to_owned());
+    let (line, _) = read_model(Source::new("line.toml", text), &[setting]).expect("is sound");
+    assert_eq!(line.shafts()[0].cubic_nm_per_rad3, -5.0);
+    let initial = vec!["k = 0.twist=1 rad".to_owned()];
+    let text = QuestionText { initial, ..QuestionText::default() };
+    assert!(read(Verb::Simulate, &text, &line).is_ok());
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    let some = |text: &str| Some(text.to_owned());
+    let plain = QuestionText::default;
+    let scales = || QuestionText { method: some("multiple-scales"), ..plain() };
+    let refused = [
+        QuestionText { order: some("1"), ..plain() },
+        QuestionText { equation: some("twist"), method: some("clamped"), ..plain() },
+        QuestionText { order: some("1"), printed_velocity: true, ..plain() },
+        QuestionText { step: some("6s"), ..plain() },
+        QuestionText { step: some("2s"), duration: some("1s"), ..plain() },
+    ];
+    for text in refused {
+        let errors = read(Verb::Shock, &text, &example()).expect_err("has no effect");
+        assert!(errors.iter().all(|error| !error.hint.is_empty()), "{errors:?}");
+    }
+    for text in [
+        QuestionText { order: some("1"), equation: some("twist"), ..scales() },
+        QuestionText { tolerance: some("1e-9"), ..scales() },
+        QuestionText { step: some("5s"), ..plain() },
+    ] {
+        assert!(read(Verb::Shock, &text, &example()).is_ok(), "{text:?}");
+    }
+    let long = QuestionText { step: some("2s"), record: some("3s..4s"), ..plain() };
+    let errors = read(Verb::Simulate, &long, &example()).expect_err("no sample would be kept");
+    assert!(errors[0].message.contains("longer than the 1 s"), "{errors:?}");
+    // What follows from a wrong duration is not told.
+    let wrong = QuestionText { duration: some("9kg"), step: some("7s"), ..plain() };
+    assert_eq!(read(Verb::Simulate, &wrong, &example()).expect_err("is wrong").len(), 1);
+}
+
+// Source: what the program reads: a ratio is a number or a text with a number.
+#[test]
+fn the_schema_takes_what_the_program_takes() {
+    let line = example_with("ratio = 5.71", "ratio = \"5.71\"");
+    assert_eq!(line.gears()[1].ratio, 5.71);
+    let schema = json_schema(&MODEL, "model");
+    let ratio = &schema["properties"]["gear"]["items"]["properties"]["ratio"]["anyOf"];
+    assert_eq!(ratio[0]["type"], "number");
+    assert_eq!(ratio[1]["type"], "string");
+    assert_eq!(ratio[1]["pattern"], "^\\s*[-−+]?\\.?[0-9]");
+}
