@@ -21,6 +21,14 @@ pub enum AnalysisError {
         /// What failed.
         source: halfshaft_numerics::Error,
     },
+    /// An integration that a closed form starts from did not come to its end.
+    #[error("the integration ended while {doing}: {reached}")]
+    EndedEarly {
+        /// What was being done.
+        doing: &'static str,
+        /// How far it came, and why no farther.
+        reached: String,
+    },
     /// The state about which the question is asked does not exist.
     #[error("there is no stable state under the mean torques: {reason}")]
     NoEquilibrium {
@@ -94,6 +102,7 @@ impl AnalysisError {
                 "give a torque of the model an amplitude (and order) at a node that the mode moves"
             }
             Self::Numerics { .. }
+            | Self::EndedEarly { .. }
             | Self::Dynamics(_)
             | Self::Change(_)
             | Self::InitialValues { .. }

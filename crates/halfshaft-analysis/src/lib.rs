@@ -45,7 +45,7 @@ pub fn ask(
 ) -> Result<Answer, AnalysisError> {
     Ok(match question {
         Question::Check => Answer::Check(check::solve(line)?),
-        Question::Static => Answer::Static(equilibrium::solve(line)?),
+        Question::Static => Answer::Static(equilibrium::solve(line, observer)?),
         Question::Modes(question) => Answer::Modes(modal::solve(line, question)?),
         Question::Simulate(question) => {
             Answer::History(time_response::solve(line, question, observer)?)
@@ -57,7 +57,9 @@ pub fn ask(
             }
         },
         Question::Folds(question) => match question.method {
-            ResonanceMethod::Averaged => Answer::Folds(averaging::solve_folds(line, question)?),
+            ResonanceMethod::Averaged => {
+                Answer::Folds(averaging::solve_folds(line, question, observer)?)
+            }
         },
     })
 }

@@ -153,7 +153,7 @@ fn states_of_a_chain_are_the_combinations_of_its_shafts() {
     assert_eq!(result.equilibria.len(), 9);
     assert_eq!(result.equilibria.iter().filter(|state| state.stable).count(), 1);
     assert!(result.equilibria[0].stable);
-    assert!(result.equilibria.iter().all(|s| s.lowest_eigenvalue > 0.0 || !s.stable));
+    assert!(result.equilibria.iter().all(|s| s.lowest_eigenvalue > Some(0.0) || !s.stable));
 }
 
 // Source: the same, where the combinations are too many to list (3¹⁰): the stable state, which is

@@ -277,6 +277,56 @@ fn verification_holds_the_full_equations_against_the_closed_form() {
     assert_close(point.largest_multiplier, (-0.0951 * period / 2.0).exp(), 1e-6);
 }
 
+// Source: two paths to one line: a shaft of stiffness k is two of k/2 side by side, whichever of them
+// closes the loop.
+#[test]
+fn a_shaft_that_closes_a_loop_is_verified_too() {
+    let text = chain(&[1.0, 2.0], &[300.0], None, 0.4)
+        + "[[torque]]\nname = \"t\"\non = \"n0\"\namplitude = 3\norder = 1\n";
+    let one = line_of(&text, &["s0.stiffness=600", "s0.cubic=-5", "s0.damping=0.8"]);
+    let text = text
+        + "[[shaft]]\nname = \"other\"\nfrom = \"n0\"\nto = \"n1\"\nstiffness = 300\n\
+           damping = 0.4\ncubic = -5\n";
+    let two = line_of(&text, &[]);
+    let ask = QuestionText { verify: true, ..Default::default() };
+    let (one, two) = (resonance(&one, &ask), resonance(&two, &ask));
+    assert!(two.header.warnings.is_empty(), "{:?}", two.header.warnings);
+    assert_eq!(one.verification.len(), two.verification.len());
+    assert!(!one.verification.is_empty());
+    for (a, b) in one.verification.iter().zip(&two.verification) {
+        assert_close(b.integrated, a.integrated, 1e-8);
+    }
+}
+
+// Source: theory 5: the threshold f_c vanishes with the damping.
+#[test]
+fn without_damping_any_excitation_folds() {
+    let result = all(&oscillator(&["spring.damping=0"]));
+    assert_eq!(result.scaling[0].fold_threshold_f, Some(0.0));
+    assert_eq!(special(&result, SpecialKind::Fold).len(), 1);
+    assert!(!result.header.warnings.iter().any(|text| text.contains("inf")));
+}
+
+// Source: sampling theory: a harmonic of high order needs samples of its own.
+#[test]
+fn a_high_order_beside_a_low_one_is_verified() {
+    let text = halfshaft_model::embedded::scaled().text
+        + "[[torque]]\nname = \"buzz\"\non = \"oscillator\"\namplitude = 10\norder = 130\n";
+    let line = line_of(&text, &[]);
+    let window = format!("{}..{}", 25.8 / 130.0, 26.4 / 130.0);
+    let ask = QuestionText {
+        verify: true,
+        order: some("130"),
+        frequency: some(&window),
+        ..Default::default()
+    };
+    let result = resonance(&line, &ask);
+    assert!(!result.verification.is_empty());
+    for point in &result.verification {
+        assert!(point.relative_difference.abs() < 0.02, "{point:?}");
+    }
+}
+
 // Source: geometry: every bent curve has as many jumps as folds, however high it rises above the
 // response that it falls to.
 #[test]

@@ -203,6 +203,40 @@ fn a_history_too_short_to_turn_has_no_first_peak() {
     assert_eq!(result.metrics.shafts["half-shaft"].first_peak, None);
 }
 
+// Source: the load alone on its shaft: damping to ground adds to the shaft's, (c + d)/(2 J).
+#[test]
+fn the_clamped_load_feels_damping_to_ground() {
+    let decay = |ground: f64| {
+        let line = driveline(&["half-shaft.cubic=0", &format!("vehicle.damping={ground}")]);
+        let text = QuestionText {
+            method: some("clamped"),
+            initial: vec!["half-shaft.twist=0.1".to_owned()],
+            ..QuestionText::default()
+        };
+        shock(&line, text).metrics.shafts["half-shaft"].decay_rate.expect("decays")
+    };
+    assert_close(decay(0.0), 90.0 / (2.0 * 81.6), 1e-6);
+    assert_close(decay(200.0), 290.0 / (2.0 * 81.6), 1e-6);
+    let line = driveline(&["vehicle.damping=200"]);
+    let published = shock(&line, from_one_radian("published"));
+    assert!(published.header.assumptions.iter().any(|text| text.contains("damping to ground")));
+}
+
+// Source: the amplitude equation of order 2, r' = -(α/2) r + 3 γ α r³/(16 ω²): beyond r² = 8 ω²/(3 γ)
+// it grows for ever, which no damped motion does.
+#[test]
+fn a_swing_too_large_for_the_expansion_is_refused() {
+    let line = driveline(&["half-shaft.cubic=20000"]);
+    let text = QuestionText {
+        method: some("multiple-scales"),
+        equation: some("twist"),
+        initial: vec!["half-shaft.twist=1.5".to_owned()],
+        ..QuestionText::default()
+    };
+    let error = try_ask(&line, Verb::Shock, &text).expect_err("too large");
+    assert!(matches!(error, AnalysisError::MethodDoesNotFit { .. }), "{error}");
+}
+
 // Source: mechanics: the equation that holds the drive end does not feel a pulse there, so it is no
 // answer to it.
 #[test]

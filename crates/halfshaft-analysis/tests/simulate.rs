@@ -254,6 +254,29 @@ fn an_impulse_inside_the_run_is_the_limit_of_short_rectangles() {
     assert_close(short, impulse, 1e-6);
 }
 
+// Source: calculus: the mean, minimum and maximum of cos over part of its period, wherever the steps
+// of the integration fall.
+#[test]
+fn what_is_measured_begins_and_ends_with_the_record() {
+    let text = chain(&[2.0], &[], Some(50.0), 0.0);
+    let (from, to, omega) = (0.505_f64, 0.895_f64, 5.0_f64);
+    let result = simulate(
+        &line_of(&text, &[]),
+        QuestionText {
+            duration: some("2s"),
+            record: some("0.505..0.895"),
+            initial: vec!["n0.angle=1".to_owned()],
+            tolerance: some("1e-12"),
+            ..QuestionText::default()
+        },
+    );
+    let metrics = &result.metrics.channels["n0.angle"];
+    let mean = ((omega * to).sin() - (omega * from).sin()) / omega / (to - from);
+    assert!((metrics.mean - mean).abs() < 1e-8, "{} {mean}", metrics.mean);
+    assert!((metrics.maximum - (omega * to).cos()).abs() < 1e-9);
+    assert!((metrics.minimum + 1.0).abs() < 1e-9);
+}
+
 // Source: Newton's law: an impulse P changes the speed by P/J at once; a sample of that very time is
 // the state after it, wherever in the history it stands.
 #[test]

@@ -59,6 +59,19 @@ pub struct EquationsOfMotion {
 }
 
 impl EquationsOfMotion {
+    /// Group angles (or speeds) from the twists of the spanning tree (or their rates), in the tree's
+    /// order; those of a free line with its first group at zero.
+    pub fn group_angles(&self, tree_twists: &[f64], angles: &mut [f64]) {
+        if self.rigid.is_some() {
+            angles[0] = 0.0;
+        }
+        for (twist, edge) in tree_twists.iter().zip(&self.network.tree) {
+            let parent = edge.parent.map_or(0.0, |(group, ratio)| ratio * angles[group]);
+            let (child, ratio) = edge.child;
+            angles[child] = if edge.from_parent { parent - twist } else { parent + twist } / ratio;
+        }
+    }
+
     /// The equations of motion of `line`.
     ///
     /// # Errors

@@ -150,9 +150,9 @@ impl<'l> Motion<'l> {
         let Kinematics { angles, speeds, twists, rates } = &mut self.kinematics;
         if groups {
             let mean = state.get(m).filter(|_| m < n).copied();
-            trace(self.equations, &state[..m], mean, angles);
+            placed(self.equations, &state[..m], mean, angles);
             let rate_of_mean = state.get(n + m).filter(|_| m < n).copied();
-            trace(self.equations, &state[n..n + m], rate_of_mean, speeds);
+            placed(self.equations, &state[n..n + m], rate_of_mean, speeds);
         }
         for (index, edge) in self.equations.network.tree.iter().enumerate() {
             twists[edge.shaft] = state[index];
@@ -259,15 +259,8 @@ fn pulse_torque(pulse: &Pulse, phase: Phase, t: f64) -> f64 {
 }
 
 /// Group values (angles or speeds) from the twists of the spanning tree and the mean.
-fn trace(equations: &EquationsOfMotion, twists: &[f64], mean: Option<f64>, out: &mut [f64]) {
-    if equations.rigid.is_some() {
-        out[0] = 0.0;
-    }
-    for (twist, edge) in twists.iter().zip(&equations.network.tree) {
-        let parent = edge.parent.map_or(0.0, |(group, ratio)| ratio * out[group]);
-        let (child, ratio) = edge.child;
-        out[child] = if edge.from_parent { parent - twist } else { parent + twist } / ratio;
-    }
+fn placed(equations: &EquationsOfMotion, twists: &[f64], mean: Option<f64>, out: &mut [f64]) {
+    equations.group_angles(twists, out);
     if let (Some(rigid), Some(mean)) = (&equations.rigid, mean) {
         let shift = mean - rigid.mean(out);
         for (value, speed) in out.iter_mut().zip(&rigid.speeds) {

@@ -43,3 +43,30 @@ mod tests {
         assert!(watchers[1].cancelled());
     }
 }
+
+/// A part of some work: its own progress from 0 to 1 is told as a share of the whole.
+#[derive(Clone, Copy)]
+pub struct Part<'o> {
+    whole: &'o dyn Observer,
+    from: f64,
+    width: f64,
+}
+
+impl<'o> Part<'o> {
+    /// Part number `index` of `count` equal parts of what `whole` observes.
+    #[expect(clippy::cast_precision_loss, reason = "counts of parts are small")]
+    pub fn of(whole: &'o dyn Observer, index: usize, count: usize) -> Self {
+        let width = 1.0 / count.max(1) as f64;
+        Self { whole, from: index as f64 * width, width }
+    }
+}
+
+impl Observer for Part<'_> {
+    fn progress(&self, fraction: f64) {
+        self.whole.progress(self.from + self.width * fraction.clamp(0.0, 1.0));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.whole.cancelled()
+    }
+}

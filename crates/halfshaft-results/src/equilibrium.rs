@@ -8,22 +8,27 @@ use crate::{Header, Named, Table};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Equilibrium {
     /// Twist of each shaft, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub twist: Named<f64>,
     /// Torque of each shaft, N·m.
+    #[serde(deserialize_with = "crate::number::read")]
     pub torque: Named<f64>,
     /// Whether the line stays there when nudged.
     pub stable: bool,
     /// Smallest eigenvalue of the tangent stiffness over the inertia with the rigid-body
-    /// motion taken out, s⁻²: the square of the lowest natural frequency where positive.
-    pub lowest_eigenvalue: f64,
+    /// motion taken out, s⁻²: the square of the lowest natural frequency where positive; `None` for
+    /// lines so large, or states so many, that it would take longer than everything else.
+    pub lowest_eigenvalue: Option<f64>,
 }
 
 /// Where a shaft's law stops carrying more torque.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Limit {
     /// Largest torque on the way from zero twist, N·m.
+    #[serde(deserialize_with = "crate::number::read")]
     pub torque: f64,
     /// Twist at that torque, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub twist: f64,
 }
 
@@ -69,10 +74,13 @@ pub struct Running {
     /// Node whose motion is meant below.
     pub node: String,
     /// Angular acceleration of that node, rad/s².
+    #[serde(deserialize_with = "crate::number::read")]
     pub acceleration: f64,
     /// Angular speed of that node, rad/s, for [`RunningKind::SteadySpeed`].
+    #[serde(deserialize_with = "crate::number::read")]
     pub speed: f64,
     /// Mean torques that follow from the balance, N·m, by torque name.
+    #[serde(deserialize_with = "crate::number::read")]
     pub balancing: Named<f64>,
 }
 
@@ -82,12 +90,15 @@ pub struct GearState {
     /// Name of the gearbox.
     pub gear: String,
     /// Its ratio.
+    #[serde(deserialize_with = "crate::number::read")]
     pub ratio: f64,
     /// Torque that each shaft must carry, N·m, where it carries it alone.
+    #[serde(deserialize_with = "crate::number::read")]
     pub required_torque: Named<f64>,
     /// Shafts that share a torque.
     pub shared: Vec<SharedLoad>,
     /// Twist of each shaft in the stable state of rest; empty where there is none.
+    #[serde(deserialize_with = "crate::number::read")]
     pub twist: Named<f64>,
     /// Whether a stable state of rest exists.
     pub exists: bool,
@@ -111,6 +122,7 @@ pub struct StaticResult {
     /// Limits of each shaft in both directions.
     pub capacity: Named<ShaftCapacity>,
     /// Torque that each shaft must carry, N·m, where it carries it alone.
+    #[serde(deserialize_with = "crate::number::read")]
     pub required_torque: Named<f64>,
     /// Shafts that share a torque.
     pub shared: Vec<SharedLoad>,

@@ -25,6 +25,8 @@ pub enum Reason {
     StepTooSmall,
     /// A value left the numbers: the motion runs away.
     NonFinite,
+    /// Questions of a study were left without a full answer.
+    Unanswered,
     /// A shaft was twisted so far past the limit of its law that nothing holds it back.
     RunsAway,
     /// No state of rest exists under the mean torques.

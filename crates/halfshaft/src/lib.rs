@@ -1,7 +1,7 @@
 //! halfshaft: nonlinear torsional dynamics of automotive drivelines.
 //!
-//! The whole program in four steps: [`load`] a model file, [`ask`] a question about the line,
-//! look at the answer ([`present`]), write it down ([`write`]).
+//! The whole program in four steps: [`load()`] a model file, [`ask`] a question about the line,
+//! look at the answer ([`present`]), write it down ([`write()`]).
 //!
 //! ```
 //! use halfshaft::{Answer, Question, Silent, ask, load_embedded};

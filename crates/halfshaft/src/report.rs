@@ -6,10 +6,9 @@ use halfshaft_model::question::{
     FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod, ResonanceQuestion,
     ShockQuestion,
 };
-use halfshaft_numerics::observer::Observer;
+use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
-    Answer, FoldsResult, Header, MissingSection, ModeScaling, Reason, ReportResult,
-    ResonanceResult, Termination,
+    Answer, Header, MissingSection, ModeScaling, Reason, ReportResult, ResonanceResult, Termination,
 };
 
 /// Asks everything that a report tells about a line.
@@ -40,11 +39,11 @@ struct Reporter<'r> {
     line: &'r Driveline,
     observer: &'r dyn Observer,
     report: &'r mut ReportResult,
-    done: u32,
+    done: usize,
 }
 
 /// Sections that a report asks for, for its progress.
-const SECTIONS: u32 = 7;
+const SECTIONS: usize = 7;
 
 impl Reporter<'_> {
     fn ask_all(&mut self) {
@@ -74,9 +73,10 @@ impl Reporter<'_> {
         if self.stopped(section) {
             return None;
         }
-        self.observer.progress(f64::from(self.done) / f64::from(SECTIONS));
+        let part = Part::of(self.observer, self.done, SECTIONS);
+        part.progress(0.0);
         self.done += 1;
-        match ask(self.line, question, self.observer) {
+        match ask(self.line, question, &part) {
             Ok(answer) => {
                 self.heed(answer.header());
                 Some(answer)
@@ -133,14 +133,10 @@ impl Reporter<'_> {
                 points: 240,
             };
             if let Some(Answer::Folds(folds)) = self.ask("folds", &Question::Folds(question)) {
-                self.keep(folds);
+                // A plane without any fold is a finding too; its warning says so.
+                self.report.folds.push(folds);
             }
         }
-    }
-
-    /// A plane without any fold is a finding too; its warning says so.
-    fn keep(&mut self, folds: FoldsResult) {
-        self.report.folds.push(folds);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use halfshaft_analysis::ask;
 use halfshaft_model::study::{Comparison, CurveStyle, Pick, Printed, Study, StudyFigure};
-use halfshaft_numerics::observer::Observer;
+use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
     Answer, ComparisonRow, Header, ItemStyle, ModelIdentity, Reason, StudyFigureSpec, StudyItem,
     StudyResult, Termination,
@@ -12,15 +12,13 @@ use halfshaft_results::{SpecialPoint, Table};
 /// Asks all questions of a study and makes its comparisons.
 pub fn run_study(study: &Study, observer: &dyn Observer) -> StudyResult {
     let mut items: Vec<StudyItem> = Vec::with_capacity(study.questions.len());
-    let mut cancelled = false;
-    for question in &study.questions {
-        #[expect(clippy::cast_precision_loss, reason = "counts of questions are small")]
-        observer.progress(items.len() as f64 / study.questions.len() as f64);
-        cancelled |= observer.cancelled();
-        if cancelled {
+    for (index, question) in study.questions.iter().enumerate() {
+        if observer.cancelled() {
             break;
         }
-        let (answer, failure) = match ask(&question.line, &question.question, observer) {
+        let part = Part::of(observer, index, study.questions.len());
+        part.progress(0.0);
+        let (answer, failure) = match ask(&question.line, &question.question, &part) {
             Ok(answer) => (Some(answer), None),
             Err(error) => (None, Some(error.to_string())),
         };
@@ -42,19 +40,29 @@ pub fn run_study(study: &Study, observer: &dyn Observer) -> StudyResult {
         .flat_map(|figure| figure.comparisons.iter().map(move |c| (figure, c)))
         .map(|(figure, comparison)| row(study, figure, comparison, &items))
         .collect();
-    let termination = if cancelled {
-        let detail =
-            format!("{} of {} questions were answered", items.len(), study.questions.len());
-        Termination::early(Reason::Cancelled, detail)
-    } else {
-        Termination::completed()
-    };
+    let termination = termination(study, &items, observer.cancelled());
     StudyResult {
         header: header(study, &items, termination),
         description: study.description.clone(),
         figures: study.figures.iter().map(figure_spec).collect(),
         items,
         comparisons,
+    }
+}
+
+/// How the study ended: a question that was stopped or has no answer leaves it incomplete.
+fn termination(study: &Study, items: &[StudyItem], cancelled: bool) -> Termination {
+    let complete = |item: &&StudyItem| {
+        item.answer.as_ref().is_some_and(|answer| answer.header().termination.is_complete())
+    };
+    let answered = items.iter().filter(complete).count();
+    let detail = format!("{answered} of {} questions were answered in full", study.questions.len());
+    if cancelled {
+        Termination::early(Reason::Cancelled, detail)
+    } else if answered < study.questions.len() {
+        Termination::early(Reason::Unanswered, detail)
+    } else {
+        Termination::completed()
     }
 }
 

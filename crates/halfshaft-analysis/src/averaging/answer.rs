@@ -292,7 +292,7 @@ fn say(equations: &EquationsOfMotion, mode: &ModeEquation, result: &mut Resonanc
     let flow = mode.slow_flow();
     let largest = flow.largest_z().sqrt();
     let name = &equations.connections[mode.reference].name;
-    if largest > room {
+    if largest.is_finite() && largest > room {
         header.warnings.push(format!(
             "at its peak the {name} swings by {largest:.4} rad, past the {room:.4} rad that are left to \
              the limit of its law: the line would give way there, which averaging does not see"

@@ -7,7 +7,10 @@ use std::rc::Rc;
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{FoldsQuestion, ParameterRange, Question, Verb};
-use halfshaft_results::{Column, FoldsResult, SpecialKind, SpecialPoint, Status, Table};
+use halfshaft_numerics::observer::Observer;
+use halfshaft_results::{
+    Column, FoldsResult, Reason, SpecialKind, SpecialPoint, Status, Table, Termination,
+};
 
 use super::answer::MOST_DETUNED;
 use super::columns::ChannelMaps;
@@ -56,14 +59,20 @@ enum Coefficient {
 pub(crate) fn solve(
     line: &Driveline,
     question: &FoldsQuestion,
+    observer: &dyn Observer,
 ) -> Result<FoldsResult, AnalysisError> {
     let family = Family::new(line, question)?;
     let ParameterRange { from, to, .. } = question.parameter;
     let flow = |parameter: f64| family.slow_flow(parameter);
     let tracer = FoldTracer { flow: &flow };
     let slices = (question.points / 3).clamp(8, 100_000);
-    let traced = tracer.trace(from, to, slices)?;
-    family.result(&traced)
+    let traced = tracer.trace(from, to, slices, observer)?;
+    let mut result = family.result(&traced)?;
+    if observer.cancelled() {
+        let detail = "not the whole range of the parameter was gone through".to_owned();
+        result.header.termination = Termination::early(Reason::Cancelled, detail);
+    }
+    Ok(result)
 }
 
 impl<'q> Family<'q> {

@@ -6,6 +6,7 @@
 //! is a scalar equation in `p` solved to the last digits.
 
 use halfshaft_numerics::bracket::{RootSettings, find_root};
+use halfshaft_numerics::observer::Observer;
 
 use super::responses::{Response, SlowFlow};
 use crate::error::AnalysisError;
@@ -22,7 +23,7 @@ pub(crate) struct FoldPoint {
 pub(crate) struct FoldCurves {
     pub(crate) curves: Vec<Vec<FoldPoint>>,
     pub(crate) cusps: Vec<FoldPoint>,
-    /// Ranges of the parameter in which the mode could not be had.
+    /// Sampled values of the parameter at which the mode could not be had.
     pub(crate) gaps: usize,
 }
 
@@ -46,18 +47,23 @@ pub(crate) struct FoldTracer<'t> {
 }
 
 impl FoldTracer<'_> {
-    /// Fold curves between two values, from about `count` slices.
+    /// Fold curves between two values, from about `count` slices; those up to where the user stopped.
     pub(crate) fn trace(
         &self,
         from: f64,
         to: f64,
         count: usize,
+        observer: &dyn Observer,
     ) -> Result<FoldCurves, AnalysisError> {
         let mut result = FoldCurves::default();
         let mut runs: Vec<Vec<Slice>> = vec![Vec::new()];
         #[expect(clippy::cast_precision_loss, reason = "counts are small")]
         for index in 0..count {
+            if observer.cancelled() {
+                break;
+            }
             let share = index as f64 / (count - 1) as f64;
+            observer.progress(share);
             let parameter = if index == count - 1 { to } else { from + (to - from) * share };
             match self.slice(parameter)? {
                 Some(slice) => {

@@ -159,7 +159,8 @@ impl SlowFlow {
 fn threshold(beta: f64, backbone: [f64; 3]) -> Option<(f64, f64)> {
     let [k1, k2, k3] = backbone;
     if beta <= 0.0 {
-        return None;
+        // Nothing holds the peak back: any drive bends the response over.
+        return (backbone != [0.0; 3]).then_some((0.0, 0.0));
     }
     if k2 == 0.0 && k3 == 0.0 {
         if k1 == 0.0 {

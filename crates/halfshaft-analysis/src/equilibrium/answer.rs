@@ -3,8 +3,10 @@
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, Verb};
+use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Column, GearState, Named, RunningKind, ShaftCapacity, SharedLoad, StaticResult, Table,
+    Column, Equilibrium, GearState, Named, Reason, RunningKind, ShaftCapacity, SharedLoad,
+    StaticResult, Table, Termination,
 };
 
 use super::{Overload, RestStates, Shared, capacity, carries, find, find_stable};
@@ -13,7 +15,10 @@ use crate::header::header;
 use crate::modal::{by_connection, rest_result};
 
 /// Answers `static`.
-pub(crate) fn solve(line: &Driveline) -> Result<StaticResult, AnalysisError> {
+pub(crate) fn solve(
+    line: &Driveline,
+    observer: &dyn Observer,
+) -> Result<StaticResult, AnalysisError> {
     let equations = EquationsOfMotion::new(line)?;
     let states = find(&equations)?;
     let capacities: Vec<ShaftCapacity> =
@@ -25,7 +30,8 @@ pub(crate) fn solve(line: &Driveline) -> Result<StaticResult, AnalysisError> {
     let names = || equations.connections.iter().map(|connection| connection.name.clone());
     let torque_capacity =
         (0..capacities.len()).map(|index| carries(&capacities[index], asked(index)));
-    let gears = gear_states(line)?;
+    let gears = gear_states(line, observer)?;
+    let equilibria = listed(&equations, &states, observer)?;
     let mut header = header(line, Verb::Static, &Question::Static);
     header.assumptions.push(running_sentence(&equations, &states));
     if !states.proven {
@@ -53,13 +59,13 @@ pub(crate) fn solve(line: &Driveline) -> Result<StaticResult, AnalysisError> {
             header.warnings.push(message);
         }
     }
+    if observer.cancelled() {
+        let detail = "not all equilibria and gears are listed".to_owned();
+        header.termination = Termination::early(Reason::Cancelled, detail);
+    }
     Ok(StaticResult {
         header,
-        equilibria: states
-            .states
-            .iter()
-            .map(|state| rest_result(&equations, state))
-            .collect::<Result<_, _>>()?,
+        equilibria,
         complete: states.is_complete(),
         torque_capacity: names().zip(torque_capacity).collect(),
         capacity: names().zip(capacities.iter().copied()).collect(),
@@ -75,6 +81,29 @@ pub(crate) fn solve(line: &Driveline) -> Result<StaticResult, AnalysisError> {
             })
             .collect(),
     })
+}
+
+/// Work in floating-point operations that the eigenvalues of all states may take.
+const EIGENVALUE_WORK: f64 = 1e10;
+
+/// The states as results; as many as were made until the user stopped.
+fn listed(
+    equations: &EquationsOfMotion,
+    states: &RestStates,
+    observer: &dyn Observer,
+) -> Result<Vec<Equilibrium>, AnalysisError> {
+    #[expect(clippy::cast_precision_loss, reason = "a size")]
+    let work = (equations.groups() as f64).powi(3);
+    let mut spent = 0.0;
+    let mut listed = Vec::with_capacity(states.states.len());
+    for state in &states.states {
+        if observer.cancelled() {
+            break;
+        }
+        spent += work;
+        listed.push(rest_result(equations, state, spent <= EIGENVALUE_WORK)?);
+    }
+    Ok(listed)
 }
 
 /// Torque asked of each shaft that carries it alone.
@@ -130,12 +159,18 @@ fn running_sentence(equations: &EquationsOfMotion, states: &RestStates) -> Strin
 }
 
 /// The line in each gear of each gearbox that lists its ratios, with what is overloaded there.
-fn gear_states(line: &Driveline) -> Result<Vec<(GearState, Option<Overload>)>, AnalysisError> {
+fn gear_states(
+    line: &Driveline,
+    observer: &dyn Observer,
+) -> Result<Vec<(GearState, Option<Overload>)>, AnalysisError> {
     let mut rows = Vec::new();
     for gear in line.gears() {
         let address = format!("{}.ratio", gear.name);
         let Ok(parameter) = line.parameter(&address) else { continue };
         for ratio in &gear.ratios {
+            if observer.cancelled() {
+                return Ok(rows);
+            }
             let shifted = line.with(&parameter, *ratio)?;
             let equations = EquationsOfMotion::new(&shifted)?;
             let states = find_stable(&equations)?;

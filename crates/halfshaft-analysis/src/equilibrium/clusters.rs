@@ -73,29 +73,19 @@ pub(super) fn split(equations: &EquationsOfMotion, forces: &[f64]) -> Vec<Cluste
 }
 
 /// Twists of all connections from those of the tree.
-pub(super) fn all_twists(equations: &EquationsOfMotion, tree_twists: &[f64]) -> Vec<f64> {
+pub(crate) fn all_twists(equations: &EquationsOfMotion, tree_twists: &[f64]) -> Vec<f64> {
     let mut twists = vec![0.0; equations.connections.len()];
     for (edge, twist) in equations.network.tree.iter().zip(tree_twists) {
         twists[edge.shaft] = *twist;
     }
     if !equations.network.loops.is_empty() {
-        let angles = trace(equations, tree_twists);
+        let mut angles = vec![0.0; equations.groups()];
+        equations.group_angles(tree_twists, &mut angles);
         for &shaft in &equations.network.loops {
             twists[shaft] = equations.twist(shaft, &angles);
         }
     }
     twists
-}
-
-/// Group angles for tree twists with the root at zero.
-fn trace(equations: &EquationsOfMotion, tree_twists: &[f64]) -> Vec<f64> {
-    let mut angles = vec![0.0; equations.groups()];
-    for (edge, twist) in equations.network.tree.iter().zip(tree_twists) {
-        let parent = edge.parent.map_or(0.0, |(group, ratio)| ratio * angles[group]);
-        let (child, ratio) = edge.child;
-        angles[child] = if edge.from_parent { parent - twist } else { parent + twist } / ratio;
-    }
-    angles
 }
 
 /// Torque that the forces beyond each tree shaft ask of it, loops left out.
@@ -128,10 +118,11 @@ fn tree_torques(equations: &EquationsOfMotion, forces: &[f64]) -> Vec<f64> {
 fn loop_coefficients(equations: &EquationsOfMotion, shaft: usize) -> Vec<f64> {
     let count = equations.network.tree.len();
     let mut unit = vec![0.0; count];
+    let mut angles = vec![0.0; equations.groups()];
     (0..count)
         .map(|edge| {
             unit[edge] = 1.0;
-            let angles = trace(equations, &unit);
+            equations.group_angles(&unit, &mut angles);
             unit[edge] = 0.0;
             let a = equations.twist(shaft, &angles);
             // Beyond both ends of the loop the twist cancels, but for rounding.
@@ -178,8 +169,10 @@ impl Cluster {
                 |root: Root| Balanced { twists: vec![root.value], stable: holds(&rest, root) };
             return Ok((rest.real_roots().into_iter().map(balanced).collect(), true));
         }
+        // A linear cluster has one equilibrium, which one start finds.
         let linear = self.laws().all(|index| equations.connections[index].law.is_linear());
-        Ok((self.search(equations)?, linear))
+        let starts = if linear { 1 } else { STARTS * self.members.len() };
+        Ok((self.search(equations, starts)?, linear))
     }
 
     /// Law of a cluster of one as one polynomial of its twist: loops act in parallel.
@@ -209,11 +202,15 @@ impl Cluster {
     }
 
     /// Balanced twists by Newton's method from many starts; not proven complete.
-    fn search(&self, equations: &EquationsOfMotion) -> Result<Vec<Balanced>, AnalysisError> {
+    fn search(
+        &self,
+        equations: &EquationsOfMotion,
+        starts: usize,
+    ) -> Result<Vec<Balanced>, AnalysisError> {
         let count = self.members.len();
         let reach = self.reach(equations);
         let mut found: Vec<Balanced> = Vec::new();
-        for start in 0..STARTS * count {
+        for start in 0..starts {
             let guess: Vec<f64> = (0..count)
                 .map(
                     |axis| if start == 0 { 0.0 } else { reach * (2.0 * halton(start, axis) - 1.0) },

@@ -17,6 +17,7 @@ use crate::modal::elastic::ElasticSpace;
 
 pub(crate) use answer::{overload_message, solve};
 pub(crate) use capacity::{capacity, carries};
+pub(crate) use clusters::all_twists;
 pub(crate) use running::RunningState;
 
 /// One state of rest or uniform running.
@@ -145,8 +146,8 @@ struct Combination {
 }
 
 /// Every old combination with every solution of one more cluster; of too many the stable ones
-/// first, and then those nearest to zero twist. Sizes add up, so no later cluster can bring back
-/// what is dropped here.
+/// first, and then those nearest to zero twist. Sizes add up, so the stable state nearest to zero
+/// twist is never dropped.
 fn combine(
     old: &[Combination],
     members: &[usize],
@@ -171,7 +172,7 @@ fn combine(
 }
 
 fn rest_state(equations: &EquationsOfMotion, combination: &Combination) -> RestState {
-    let twists = clusters::all_twists(equations, &combination.tree_twists);
+    let twists = all_twists(equations, &combination.tree_twists);
     let torques =
         equations.connections.iter().zip(&twists).map(|(c, x)| c.law.torque(*x)).collect();
     RestState { twists, torques, stable: combination.stable }
@@ -187,7 +188,7 @@ pub(crate) fn lowest_eigenvalue(
     Ok(eigenvalues.first().copied().unwrap_or(0.0))
 }
 
-/// Whether the law of a connection can be inverted by polynomial roots.
+/// The law of a connection as a polynomial.
 pub(crate) fn polynomial_of(law: &TorqueLaw) -> &halfshaft_dynamics::laws::PolynomialLaw {
     match law {
         TorqueLaw::Polynomial(law) => law,

@@ -41,7 +41,7 @@ pub(crate) fn solve(
     if !state.stable {
         header.warnings.push("this equilibrium is not stable: small motions grow".to_owned());
     }
-    Ok(ModesResult { header, equilibrium: rest_result(&equations, state)?, modes })
+    Ok(ModesResult { header, equilibrium: rest_result(&equations, state, true)?, modes })
 }
 
 /// The equilibrium of that number (from 1), or the stable one nearest to zero twist.
@@ -74,16 +74,18 @@ pub(crate) fn mode_label(
     Ok(words(equations, state, shape))
 }
 
-/// An equilibrium as a result.
+/// An equilibrium as a result; with its lowest eigenvalue where that is asked for.
 pub(crate) fn rest_result(
     equations: &EquationsOfMotion,
     state: &RestState,
+    with_eigenvalue: bool,
 ) -> Result<Equilibrium, AnalysisError> {
+    let lowest = || equilibrium::lowest_eigenvalue(equations, state);
     Ok(Equilibrium {
         twist: by_connection(equations, &state.twists),
         torque: by_connection(equations, &state.torques),
         stable: state.stable,
-        lowest_eigenvalue: equilibrium::lowest_eigenvalue(equations, state)?,
+        lowest_eigenvalue: with_eigenvalue.then(lowest).transpose()?,
     })
 }
 

@@ -352,7 +352,8 @@ fn single_sentence(single: &SingleEquation) -> String {
         ShockEquation::Clamped => "the load on its shaft with the drive end held",
         ShockEquation::Twist => "the relative twist of the free two-mass line",
     };
-    format!("{what}: {}", single.formula())
+    let drag = if single.drag_left_out { "; damping to ground has no place in it" } else { "" };
+    format!("{what}: {}{drag}", single.formula())
 }
 
 fn closed_sentence(single: &SingleEquation, order: u8, closed: &ClosedMotion<'_>) -> String {

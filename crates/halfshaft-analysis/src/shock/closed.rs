@@ -63,6 +63,10 @@ impl<'s> ClosedMotion<'s> {
                 turning: run.recorder.turning[twist].clone(),
                 rate_turning: run.recorder.turning[rate].clone(),
             };
+            if !run.termination.is_complete() {
+                let reached = run.termination.detail.unwrap_or_default();
+                return Err(AnalysisError::EndedEarly { doing: "the pulse was acting", reached });
+            }
             if let Some(last) = before.trace.last() {
                 (x, v) = (last.value, last.slope);
             }

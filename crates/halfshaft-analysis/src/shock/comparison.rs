@@ -2,7 +2,9 @@
 
 use halfshaft_model::question::{ChannelQuantity, ShockEquation, ShockMethod, ShockQuestion};
 use halfshaft_numerics::observer::Observer;
-use halfshaft_results::{Column, HistoryResult, MethodRow, ShaftMetrics, Table};
+use halfshaft_results::{
+    Column, HistoryResult, MethodRow, Reason, ShaftMetrics, Table, Termination,
+};
 
 use super::answer::ShockProblem;
 use super::closed::ClosedMotion;
@@ -45,6 +47,10 @@ pub(crate) fn add(
             continue;
         }
         accounts.extend(accounts_of(problem, &single, start, observer)?);
+    }
+    if observer.cancelled() {
+        let detail = "the methods side by side are not complete".to_owned();
+        result.header.termination = Termination::early(Reason::Cancelled, detail);
     }
     let rows = accounts.iter().map(|account| row(account, &accounts)).collect();
     let table = histories(&accounts, result.values("time"));
@@ -117,8 +123,8 @@ fn accounts_of(
 ) -> Result<Vec<Account>, AnalysisError> {
     let (question, name) = (problem.question, single::name(single.equation));
     let mut accounts = Vec::new();
-    // The twist equation by integration is the whole line over again.
-    let reference = if single.equation == ShockEquation::Twist {
+    // The twist equation by integration is the whole line over again, but for damping to ground.
+    let reference = if single.equation == ShockEquation::Twist && !single.drag_left_out {
         "full"
     } else {
         accounts.push(integrated(single, question, start, observer)?);

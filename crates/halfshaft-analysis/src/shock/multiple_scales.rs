@@ -185,7 +185,31 @@ impl MultipleScales {
             });
         }
         let [a, b] = [solution.unknowns[0], solution.unknowns[1]];
-        Ok(Self { oscillator, expansion, r0: a.hypot(b), phase0: b.atan2(a) })
+        let found = Self { oscillator, expansion, r0: a.hypot(b), phase0: b.atan2(a) };
+        if expansion == Expansion::Second && oscillator.alpha > 0.0 {
+            // Where the cubic term outweighs the damping of the amplitude it would grow for ever.
+            let growth = found.bend() * found.r0 * found.r0;
+            if growth >= 1.0 {
+                return Err(AnalysisError::MethodDoesNotFit {
+                    method: "multiple-scales",
+                    reason: format!(
+                        "a swing of {:.4} rad is too large for the expansion, whose amplitude would \
+                         grow in spite of the damping",
+                        found.r0
+                    ),
+                });
+            }
+        }
+        Ok(found)
+    }
+
+    /// How the amplitude's own decay bends with its square, 1/rad².
+    fn bend(&self) -> f64 {
+        let Oscillator { omega, gamma, .. } = self.oscillator;
+        match self.expansion {
+            Expansion::Second => 3.0 * gamma / (8.0 * omega * omega),
+            Expansion::First | Expansion::FirstAsPrinted => 0.0,
+        }
     }
 
     /// Amplitude and fast phase at time `t`.
@@ -197,8 +221,7 @@ impl MultipleScales {
         let time = if alpha == 0.0 { t } else { decayed / alpha };
         // The amplitude equation of order 2 is Bernoulli's: u = r², u' = -α u + 3 γ α u²/(8 ω²).
         let second = self.expansion == Expansion::Second;
-        let bend = if second { 3.0 * gamma / (8.0 * omega * omega) } else { 0.0 };
-        let z = bend * u0 * decayed;
+        let z = self.bend() * u0 * decayed;
         let u = u0 * (1.0 - decayed) / (1.0 - z);
         let (log, rest) = logarithms(z);
         let integral_u = u0 * time * log;

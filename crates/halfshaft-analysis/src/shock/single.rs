@@ -39,6 +39,8 @@ pub(crate) struct SingleEquation {
     pub(crate) oscillator: Oscillator,
     /// Coefficients of `θ⁴` and up over the inertia, which closed forms leave out.
     pub(crate) higher: Vec<f64>,
+    /// Whether the line is damped against ground and the equation is not.
+    pub(crate) drag_left_out: bool,
 }
 
 /// The two ends of the only shaft.
@@ -80,14 +82,22 @@ pub(crate) fn reduce(
             reason: "the tangent stiffness at the equilibrium is not positive".to_owned(),
         });
     }
+    // Only the clamped load turns against ground as θ does; the other two have no place for that.
+    let (load, ratio) = ends.load_place;
+    let drag = match equation {
+        ShockEquation::Clamped => equations.ground_damping[load] / (ratio * ratio),
+        ShockEquation::Published | ShockEquation::Twist => 0.0,
+    };
+    let damped = equations.ground_damping.iter().any(|d| *d != 0.0);
     let oscillator = Oscillator {
         omega: (stiffness / inertia).sqrt(),
-        alpha: shaft.damping / inertia,
+        alpha: (shaft.damping + drag) / inertia,
         gamma: restoring[3] / inertia,
         mu: -restoring[2] / inertia,
     };
     let higher = restoring[4..].iter().map(|k| k / inertia).collect();
-    let surrogate = surrogate(equations, &ends, equation, inertia, gain, restoring);
+    let mut surrogate = surrogate(equations, &ends, equation, inertia, gain, restoring);
+    surrogate.ground_damping[0] = drag;
     Ok(SingleEquation {
         equation,
         surrogate,
@@ -96,6 +106,7 @@ pub(crate) fn reduce(
         static_torque,
         oscillator,
         higher,
+        drag_left_out: damped && equation != ShockEquation::Clamped,
     })
 }
 

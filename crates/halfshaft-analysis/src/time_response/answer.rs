@@ -106,8 +106,10 @@ pub(crate) fn channel_metrics(recorder: &Recorder<'_>) -> Named<halfshaft_result
 pub(crate) fn energy_warning(header: &mut Header, energy: &EnergyBalance, tolerance: f64) {
     // Errors of many steps add up; a thousand tolerances is where they begin to matter. A motion
     // that runs away has no scale to judge them by.
-    let lost = header.termination.reason == Reason::RunsAway;
-    if !lost && energy.relative_residual > 1e3 * tolerance.max(1e-15) {
+    let fair = [Reason::Completed, Reason::Cancelled, Reason::StepLimit];
+    if fair.contains(&header.termination.reason)
+        && energy.relative_residual > 1e3 * tolerance.max(1e-15)
+    {
         header.warnings.push(format!(
             "the energy balance is open by {:.2e} of the energy turned over; ask for a tighter \
              --tolerance",

@@ -1,6 +1,6 @@
 //! Time histories of the full equations, the last word on every other answer.
 //!
-//! [`run`] integrates from a state to an end time, restarting where pulses begin and end, and
+//! [`mod@run`] integrates from a state to an end time, restarting where pulses begin and end, and
 //! shows every step to a [`recorder`], which fills the history and finds turning points on
 //! the dense output. Work and heat are integrated beside the motion, so that the energy
 //! balance of a run measures its error.

@@ -140,8 +140,15 @@ impl<'l> Recorder<'l> {
 
     /// Takes one accepted step.
     pub(crate) fn step(&mut self, dense: &DenseStep<'_>, from: f64, to: f64) {
-        if to < self.record.0 || from > self.record.1 {
+        let (begin, end) = (from.max(self.record.0), to.min(self.record.1));
+        if begin > end {
             return;
+        }
+        // What is measured begins and ends with the record, not with a step.
+        if self.before.as_ref().is_none_or(|before| before.time != begin) {
+            let sample = self.sample(dense, begin);
+            self.measure(&sample);
+            self.before = Some(sample);
         }
         while self.next < self.grid.len() && self.grid[self.next] <= to {
             let sample = self.sample(dense, self.grid[self.next]);
@@ -149,7 +156,7 @@ impl<'l> Recorder<'l> {
         }
         for part in 1..=PARTS {
             let share = f64::from(part) / f64::from(PARTS);
-            let time = if part == PARTS { to } else { from + (to - from) * share };
+            let time = if part == PARTS { end } else { begin + (end - begin) * share };
             let sample = self.sample(dense, time);
             if let Some(before) = self.before.take() {
                 self.between(dense, &before, &sample);
@@ -198,15 +205,12 @@ impl<'l> Recorder<'l> {
     /// Turning points and the integral between two samples inside a step.
     fn between(&mut self, dense: &DenseStep<'_>, before: &Sample, after: &Sample) {
         let width = after.time - before.time;
-        let recorded = self.in_record(before.time) && self.in_record(after.time);
         for channel in 0..before.values.len() {
             let (v0, v1) = (before.values[channel], after.values[channel]);
             let (s0, s1) = (before.slopes[channel], after.slopes[channel]);
-            if recorded {
-                // Hermite quadrature: exact for cubics.
-                let integral = width * (v0 + v1) / 2.0 + width * width * (s0 - s1) / 12.0;
-                self.extremes[channel].integral += integral;
-            }
+            // Hermite quadrature: exact for cubics.
+            let integral = width * (v0 + v1) / 2.0 + width * width * (s0 - s1) / 12.0;
+            self.extremes[channel].integral += integral;
             let turns = (s0 < 0.0 && s1 >= 0.0) || (s0 > 0.0 && s1 <= 0.0);
             if !turns || width <= 0.0 {
                 continue;
@@ -216,7 +220,7 @@ impl<'l> Recorder<'l> {
                 (self.extremes[channel].minimum.value, self.extremes[channel].maximum.value);
             let slack = 1e-2 * low.abs().max(high.abs());
             let could_be_extreme = estimate > high - slack || estimate < low + slack;
-            if self.followed[channel] || (could_be_extreme && self.in_record(after.time)) {
+            if self.followed[channel] || could_be_extreme {
                 self.turn(dense, channel, before.time, after.time);
             }
         }

@@ -1,6 +1,7 @@
 //! Predicted responses held against periodic orbits of the full line.
 
 use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_numerics::dense::Matrix;
 use halfshaft_numerics::fourier;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_numerics::ode::System;
@@ -9,6 +10,7 @@ use halfshaft_results::VerifiedPoint;
 
 use super::elastic_motion::ElasticMotion;
 use crate::averaging::{ModeEquation, Response, phase_lag};
+use crate::equilibrium;
 use crate::error::{AnalysisError, Doing};
 
 /// Speeds spread over the range at which responses are checked.
@@ -42,8 +44,9 @@ pub(crate) fn choose(mode: &ModeEquation, (from, to): (f64, f64)) -> Vec<Respons
     sigmas.into_iter().flat_map(|sigma| flow.responses(sigma)).collect()
 }
 
-/// Samples of an orbit for its harmonics.
+/// Samples of an orbit at least, and for each period of the harmonic that is looked at.
 const SAMPLES: usize = 256;
+const SAMPLES_PER_WAVE: usize = 16;
 
 /// What the check of predicted responses gave.
 #[derive(Debug, Default)]
@@ -109,15 +112,13 @@ fn check(
     if !orbit.report.converged.is_converged() {
         return Ok(None);
     }
-    let samples = orbit
-        .sample(&mut motion, SAMPLES, &settings.integration)
-        .doing("sampling a periodic orbit")?;
-    let Some(edge) = equations.network.tree.iter().position(|e| e.shaft == mode.reference) else {
-        return Ok(None);
-    };
-    let twist = samples.row(edge);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
     let harmonic = (mode.order / base).round() as usize;
+    let samples = orbit
+        .sample(&mut motion, SAMPLES.max(SAMPLES_PER_WAVE * harmonic), &settings.integration)
+        .doing("sampling a periodic orbit")?;
+    let twist = twist_of(equations, mode.reference, &samples);
+    let twist = twist.as_slice();
     let integrated =
         fourier::harmonic(twist, harmonic).doing("taking the harmonic of an orbit")?.modulus;
     let amplitude = fourier::half_peak_to_peak(twist).doing("measuring an orbit")?;
@@ -134,6 +135,20 @@ fn check(
         largest_multiplier: largest,
         orbit_residual: orbit.residual / amplitude.max(f64::MIN_POSITIVE),
     }))
+}
+
+/// Twist of a shaft over an orbit; one that closes a loop follows from those of the tree.
+fn twist_of(equations: &EquationsOfMotion, shaft: usize, samples: &Matrix) -> Vec<f64> {
+    if let Some(edge) = equations.network.tree.iter().position(|edge| edge.shaft == shaft) {
+        return samples.row(edge).to_vec();
+    }
+    let tree = equations.network.tree.len();
+    (0..samples.columns())
+        .map(|column| {
+            let twists: Vec<f64> = (0..tree).map(|edge| samples[(edge, column)]).collect();
+            equilibrium::all_twists(equations, &twists)[shaft]
+        })
+        .collect()
 }
 
 /// The state at time 0 of the predicted response.

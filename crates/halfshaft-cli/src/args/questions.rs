@@ -28,8 +28,8 @@ pub enum Ask {
     Modes(Modes),
     /// A time history of the full equations
     ///
-    /// Torques act from time 0 on. The channels are <shaft>.twist, .twist_rate, .torque (spring
-    /// and damper together) and <node>.angle, .speed.
+    /// Torques act from time 0 on. The channels are SHAFT.twist, .twist_rate, .torque (spring
+    /// and damper together) and NODE.angle, .speed.
     #[command(after_help = "Examples:
   halfshaft simulate my-line.toml --duration 2s --out history.csv
   halfshaft simulate --start equilibrium --frequency 200rpm --out history.svg

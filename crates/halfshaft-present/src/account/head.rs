@@ -30,6 +30,7 @@ pub(crate) fn early_end(termination: &Termination) -> Option<String> {
         Reason::StepLimit => "the integrator used up its steps",
         Reason::StepTooSmall => "the steps of the integrator became too small to go on",
         Reason::NonFinite => "a value left the numbers: the motion runs away",
+        Reason::Unanswered => "some questions have no full answer",
         Reason::RunsAway => "nothing holds the motion back any more",
         Reason::NoEquilibrium => "there is no state of rest under the mean torques",
     };

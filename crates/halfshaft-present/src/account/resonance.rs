@@ -108,6 +108,9 @@ pub(crate) fn threshold(scaling: &ModeScaling) -> String {
     let from = quantity(threshold, 5, "rad/s²");
     let model = quantity(scaling.f, 5, "rad/s²");
     match scaling.fold_threshold_factor {
+        Some(0.0) => {
+            "Without damping nothing holds the peak back: it folds under any excitation.".to_owned()
+        }
         Some(factor) if factor > 1.0 => format!(
             "It does not jump: the excitation would have to be {} larger (folds begin at f = {from}; \
              the model has f = {model}).",

@@ -6,12 +6,12 @@
 //!
 //! | part | file |
 //! |---|---|
-//! | head, contents, scripts around everything | [`shell`] |
-//! | sections of a report | [`report`] |
-//! | sections of a study | [`study`] |
-//! | sections of any other answer | [`single`] |
-//! | an account as paragraphs and tables | [`blocks`] |
-//! | one figure | [`figure`] |
+//! | head, contents, scripts around everything | `shell` |
+//! | sections of a report | `report` |
+//! | sections of a study | `study` |
+//! | sections of any other answer | `single` |
+//! | an account as paragraphs and tables | `blocks` |
+//! | one figure | `figure` |
 
 use halfshaft_results::Answer;
 

@@ -2,9 +2,9 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | what is written at each part | [`caption`] |
-//! | where every part lies | [`layout`] |
-//! | how the parts look | [`symbols`] |
+//! | what is written at each part | `caption` |
+//! | where every part lies | `layout` |
+//! | how the parts look | `symbols` |
 //!
 //! The longest way through the line runs from left to right and goes on in a further row where a
 //! page is too narrow; branches hang below the node that they leave, and connections that close a
