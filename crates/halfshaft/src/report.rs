@@ -102,11 +102,13 @@ impl Reporter<'_> {
             let detail = format!("stopped by the user before the section {section}");
             *termination = Termination::early(Reason::Cancelled, detail);
         }
-        self.report.missing.push(MissingSection {
-            section: section.to_owned(),
-            reason: "stopped by the user".to_owned(),
-            advice: None,
-        });
+        if !self.report.missing.iter().any(|missing| missing.section == section) {
+            self.report.missing.push(MissingSection {
+                section: section.to_owned(),
+                reason: "stopped by the user".to_owned(),
+                advice: None,
+            });
+        }
         true
     }
 

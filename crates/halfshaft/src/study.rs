@@ -40,9 +40,10 @@ pub fn run_study(study: &Study, observer: &dyn Observer) -> StudyResult {
         .flat_map(|figure| figure.comparisons.iter().map(move |c| (figure, c)))
         .map(|(figure, comparison)| row(study, figure, comparison, &items))
         .collect();
-    let termination = termination(study, &items, observer.cancelled());
+    let unknown = unknown_columns(study, &items);
+    let termination = termination(study, &items, observer.cancelled(), unknown.len());
     StudyResult {
-        header: header(study, &items, termination),
+        header: header(study, &items, termination, unknown),
         description: study.description.clone(),
         figures: study.figures.iter().map(figure_spec).collect(),
         items,
@@ -51,7 +52,7 @@ pub fn run_study(study: &Study, observer: &dyn Observer) -> StudyResult {
 }
 
 /// How the study ended: a question that was stopped or has no answer leaves it incomplete.
-fn termination(study: &Study, items: &[StudyItem], cancelled: bool) -> Termination {
+fn termination(study: &Study, items: &[StudyItem], cancelled: bool, unknown: usize) -> Termination {
     let complete = |item: &&StudyItem| {
         item.answer.as_ref().is_some_and(|answer| answer.header().termination.is_complete())
     };
@@ -61,12 +62,50 @@ fn termination(study: &Study, items: &[StudyItem], cancelled: bool) -> Terminati
         Termination::early(Reason::Cancelled, detail)
     } else if answered < study.questions.len() {
         Termination::early(Reason::Unanswered, detail)
+    } else if unknown > 0 {
+        let detail = "a figure asks for a column that no answer has".to_owned();
+        Termination::early(Reason::Unanswered, detail)
     } else {
         Termination::completed()
     }
 }
 
-fn header(study: &Study, items: &[StudyItem], termination: Termination) -> Header {
+/// Axes of figures that no answer has a column for, each with the columns there are.
+fn unknown_columns(study: &Study, items: &[StudyItem]) -> Vec<String> {
+    let mut unknown = Vec::new();
+    for figure in &study.figures {
+        let answers = items.iter().filter(|item| item.figure.as_ref() == Some(&figure.name));
+        let names: Vec<String> = answers
+            .filter_map(|item| item.answer.as_ref())
+            .flat_map(|answer| answer.tables())
+            .flat_map(|(_, table)| table.columns)
+            .map(|column| column.name)
+            .collect();
+        if names.is_empty() {
+            continue; // without an answer its failure is told
+        }
+        for axis in [&figure.x, &figure.y] {
+            if !axis.is_empty() && !names.contains(axis) {
+                let mut known = names.clone();
+                known.sort();
+                known.dedup();
+                unknown.push(format!(
+                    "figure \"{}\": no answer has a column \"{axis}\"; there are {}",
+                    figure.name,
+                    known.join(", ")
+                ));
+            }
+        }
+    }
+    unknown
+}
+
+fn header(
+    study: &Study,
+    items: &[StudyItem],
+    termination: Termination,
+    unknown: Vec<String>,
+) -> Header {
     let failed = items.iter().filter_map(|item| {
         let failure = item.failure.as_ref()?;
         Some(format!("{}: {failure}", item.question))
@@ -84,7 +123,7 @@ fn header(study: &Study, items: &[StudyItem], termination: Termination) -> Heade
         settings: Default::default(),
         termination,
         version: crate::VERSION.to_owned(),
-        warnings: failed.collect(),
+        warnings: failed.chain(unknown).collect(),
         assumptions: vec![format!(
             "{} questions about {} lines; each answer names its own line by digest",
             items.len(),
@@ -132,7 +171,9 @@ fn row(
     let difference = match (printed_value, recomputed_value, &comparison.printed) {
         (Some(printed), Some(recomputed), _) => relative(printed, recomputed),
         (_, _, Printed::Order(_)) if printed == recomputed => "same order".to_owned(),
-        (_, _, Printed::Order(_)) => "another order".to_owned(),
+        (_, _, Printed::Order(_)) if matches!(picked, Picked::Order(_)) => {
+            "another order".to_owned()
+        }
         _ => "–".to_owned(),
     };
     ComparisonRow {

@@ -5,8 +5,8 @@ use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, ResonanceQuestion, Verb};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Branch, Column, JumpSpeeds, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint, Status,
-    Table, Termination,
+    Branch, Column, Header, JumpSpeeds, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
+    Status, Table, Termination,
 };
 
 use super::columns::ChannelMaps;
@@ -41,6 +41,7 @@ pub(crate) fn solve(
     };
     let label = mode_label(&equations, rest, question.mode)?;
     for (mode, window) in &modes {
+        far_off(mode, *window, &mut result.header);
         add_mode(&equations, mode, *window, question.points, &mut result);
         result.scaling.push(scaling(&equations, mode, label.clone()));
         say(&equations, mode, &mut result);
@@ -74,6 +75,15 @@ fn verify(
              predicted at {:.4} rad/s",
             missed.rho(),
             mode.frequency(missed.sigma)
+        ));
+    }
+    if checked.beyond > 0 {
+        result.header.warnings.push(format!(
+            "{} of {} responses were not held against the full equations, because they swing the {} \
+             past the limit of its law",
+            checked.beyond,
+            points.len(),
+            equations.connections[mode.reference].name
         ));
     }
     if checked.cancelled {
@@ -267,6 +277,22 @@ fn turns_back(flow: &SlowFlow, fold: &Response, folds: &[Response]) -> Option<bo
     Some(near.sigma < fold.sigma)
 }
 
+/// Detuning, as part of the natural frequency, beyond which averaging is only a rough guide.
+const FAR: f64 = 0.5;
+
+/// Warns where a range asked for lies far from the resonance.
+fn far_off(mode: &ModeEquation, (from, to): (f64, f64), header: &mut Header) {
+    let own = mode.frequency(0.0);
+    if from < (1.0 - FAR - 1e-6) * own || to > (1.0 + FAR + 1e-6) * own {
+        header.warnings.push(format!(
+            "averaging speaks of speeds near {own:.4} rad/s, the resonance of mode {}; towards the ends \
+             of the range from {from:.4} to {to:.4} rad/s it is a rough guide at best, and other modes \
+             are left out (--verify shows by how much)",
+            mode.mode
+        ));
+    }
+}
+
 /// What the reader must know of the averaged answer.
 fn say(equations: &EquationsOfMotion, mode: &ModeEquation, result: &mut ResonanceResult) {
     let header = &mut result.header;
@@ -282,13 +308,7 @@ fn say(equations: &EquationsOfMotion, mode: &ModeEquation, result: &mut Resonanc
                 .to_owned(),
         );
     }
-    let limit = equilibrium::capacity(&equations.connections[mode.reference].law);
-    let rest = mode.rest_twists[mode.reference];
-    let room = [limit.positive, limit.negative]
-        .iter()
-        .flatten()
-        .map(|limit| (limit.twist - rest).abs())
-        .fold(f64::INFINITY, f64::min);
+    let room = equilibrium::room(equations, mode.reference, &mode.rest_twists);
     let flow = mode.slow_flow();
     let largest = flow.largest_z().sqrt();
     let name = &equations.connections[mode.reference].name;

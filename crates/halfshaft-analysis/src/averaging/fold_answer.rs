@@ -64,9 +64,10 @@ pub(crate) fn solve(
     let family = Family::new(line, question)?;
     let ParameterRange { from, to, .. } = question.parameter;
     let flow = |parameter: f64| family.slow_flow(parameter);
-    let tracer = FoldTracer { flow: &flow };
-    let slices = (question.points / 3).clamp(8, 100_000);
-    let traced = tracer.trace(from, to, slices, observer)?;
+    let (least, most) = family.window();
+    let shown = (family.base.1.sigma(least), family.base.1.sigma(most));
+    let tracer = FoldTracer { flow: &flow, shown, points: question.points };
+    let traced = tracer.trace(from, to, observer)?;
     let mut result = family.result(&traced)?;
     if observer.cancelled() {
         let detail = "not the whole range of the parameter was gone through".to_owned();

@@ -44,18 +44,25 @@ struct Merger {
 pub(crate) struct FoldTracer<'t> {
     /// The slow flow at a value; `None` where the mode cannot be had.
     pub(crate) flow: &'t dyn Fn(f64) -> Result<Option<SlowFlow>, AnalysisError>,
+    /// Detunings that will be shown, rad/s: outside them a curve needs no points.
+    pub(crate) shown: (f64, f64),
+    /// About how many points a curve has.
+    pub(crate) points: usize,
 }
 
+/// Rounds of halving between slices.
+const ROUNDS: usize = 8;
+
 impl FoldTracer<'_> {
-    /// Fold curves between two values, from about `count` slices; those up to where the user stopped.
+    /// Fold curves between two values; those up to where the user stopped.
     pub(crate) fn trace(
         &self,
         from: f64,
         to: f64,
-        count: usize,
         observer: &dyn Observer,
     ) -> Result<FoldCurves, AnalysisError> {
         let mut result = FoldCurves::default();
+        let count = (self.points / 3).clamp(8, 100_000);
         let mut runs: Vec<Vec<Slice>> = vec![Vec::new()];
         #[expect(clippy::cast_precision_loss, reason = "counts are small")]
         for index in 0..count {
@@ -189,6 +196,7 @@ impl FoldTracer<'_> {
             near.reverse();
             group.append(&mut near);
         }
+        let group = self.refined(group)?;
         let count = group.first().map_or(0, |slice| slice.folds.len());
         let mut strands: Vec<Vec<FoldPoint>> = (0..count)
             .map(|index| {
@@ -204,6 +212,45 @@ impl FoldTracer<'_> {
         weave(&mut strands, cusps);
         result.curves.extend(strands.into_iter().filter(|strand| strand.len() > 1));
         Ok(())
+    }
+
+    /// A group with further slices where neighbouring points of a curve lie far apart in the plane
+    /// that is shown.
+    fn refined(&self, mut group: Vec<Slice>) -> Result<Vec<Slice>, AnalysisError> {
+        let (Some(first), Some(last)) = (group.first(), group.last()) else { return Ok(group) };
+        let height = (last.parameter - first.parameter).abs().max(f64::MIN_POSITIVE);
+        let seen = |sigma: f64| sigma.clamp(self.shown.0, self.shown.1);
+        let sigmas = group.iter().flat_map(|slice| &slice.folds).map(|fold| seen(fold.sigma));
+        let (low, high) = sigmas.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), sigma| {
+            (low.min(sigma), high.max(sigma))
+        });
+        let width = (high - low).max(f64::MIN_POSITIVE);
+        #[expect(clippy::cast_precision_loss, reason = "counts are small")]
+        let step = 4.0 / self.points as f64;
+        let far = |a: &Slice, b: &Slice| {
+            let rise = (a.parameter - b.parameter) / height;
+            let pairs = a.folds.iter().zip(&b.folds);
+            pairs
+                .into_iter()
+                .any(|(x, y)| rise.hypot((seen(x.sigma) - seen(y.sigma)) / width) > step)
+        };
+        for _ in 0..ROUNDS {
+            let mut finer: Vec<Slice> = Vec::with_capacity(group.len());
+            let before = group.len();
+            for slice in group {
+                if let Some(last) = finer.last().filter(|last| far(last, &slice)) {
+                    let middle = f64::midpoint(last.parameter, slice.parameter);
+                    let between = self.slice(middle)?;
+                    finer.extend(between.filter(|new| new.folds.len() == slice.folds.len()));
+                }
+                finer.push(slice);
+            }
+            group = finer;
+            if group.len() == before || group.len() > 2 * self.points {
+                break;
+            }
+        }
+        Ok(group)
     }
 
     /// Slices between a cusp and the nearest one, closer and closer: there the folds part as the

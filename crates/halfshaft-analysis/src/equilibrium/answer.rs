@@ -51,6 +51,7 @@ pub(crate) fn solve(
     if states.primary().is_none() {
         header.warnings.push(overload_message(line, &equations, &states));
     }
+    header.warnings.extend(after_ramps(&equations)?);
     let load = load_words(&equations);
     for (state, overload) in &gears {
         let Some(overload) = overload.as_ref().filter(|_| !state.exists) else { continue };
@@ -81,6 +82,16 @@ pub(crate) fn solve(
             })
             .collect(),
     })
+}
+
+/// What a ramp that stays does to a line that holds before it.
+fn after_ramps(equations: &EquationsOfMotion) -> Result<Option<String>, AnalysisError> {
+    let Some(after) = super::after_ramps(equations) else { return Ok(None) };
+    let states = find_stable(&after)?;
+    let Some(overload) = states.overload.as_ref().filter(|_| states.primary().is_none()) else {
+        return Ok(None);
+    };
+    Ok(Some(needs("when the ramp has risen, the line", &after, overload)))
 }
 
 /// Work in floating-point operations that the eigenvalues of all states may take.

@@ -10,6 +10,7 @@ mod clusters;
 mod running;
 
 use halfshaft_dynamics::{EquationsOfMotion, TorqueLaw};
+use halfshaft_model::elements::{Pulse, PulseShape};
 use halfshaft_results::{Limit, ShaftCapacity};
 
 use crate::error::AnalysisError;
@@ -176,6 +177,31 @@ fn rest_state(equations: &EquationsOfMotion, combination: &Combination) -> RestS
     let torques =
         equations.connections.iter().zip(&twists).map(|(c, x)| c.law.torque(*x)).collect();
     RestState { twists, torques, stable: combination.stable }
+}
+
+/// The line with what its ramps leave behind as mean torques; `None` without a ramp.
+pub(crate) fn after_ramps(equations: &EquationsOfMotion) -> Option<EquationsOfMotion> {
+    let ramp = |pulse: &Pulse| pulse.shape == PulseShape::Ramp;
+    let sources = &equations.excitation.sources;
+    if !sources.iter().any(|source| source.pulse.as_ref().is_some_and(ramp)) {
+        return None;
+    }
+    let mut after = equations.clone();
+    for source in &mut after.excitation.sources {
+        source.mean += source.pulse.as_ref().map_or(0.0, Pulse::final_torque);
+    }
+    Some(after)
+}
+
+/// How far a shaft may swing from its twist at rest until the nearer limit of its law, rad;
+/// infinite without a limit.
+pub(crate) fn room(equations: &EquationsOfMotion, shaft: usize, rest_twists: &[f64]) -> f64 {
+    let limit = capacity(&equations.connections[shaft].law);
+    [limit.positive, limit.negative]
+        .iter()
+        .flatten()
+        .map(|limit| (limit.twist - rest_twists[shaft]).abs())
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Smallest eigenvalue of the tangent stiffness over the inertia with the rigid-body motion taken

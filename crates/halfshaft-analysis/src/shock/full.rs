@@ -54,14 +54,7 @@ pub(crate) fn final_twists(
     equations: &EquationsOfMotion,
     before: &[f64],
 ) -> Result<Vec<f64>, AnalysisError> {
-    if !has_ramp(equations) {
-        return Ok(before.to_vec());
-    }
-    let mut after = equations.clone();
-    for source in &mut after.excitation.sources {
-        source.mean +=
-            source.pulse.as_ref().map_or(0.0, halfshaft_model::elements::Pulse::final_torque);
-    }
+    let Some(after) = equilibrium::after_ramps(equations) else { return Ok(before.to_vec()) };
     let states = equilibrium::find_stable(&after)?;
     Ok(states.primary().map_or_else(|| before.to_vec(), |state| state.twists.clone()))
 }

@@ -116,8 +116,9 @@ pub(crate) fn run<'l>(
     })
 }
 
-/// Twists of this many times the limit of a law have nothing to hold them back.
-const LOST: f64 = 100.0;
+/// Twists of this many times the limit of a law have nothing to hold them back: all equilibria of a
+/// softening cubic lie within twice its limit.
+const LOST: f64 = 4.0;
 
 /// Tree twists whose laws have a limit on both sides, and how far is too far.
 fn reaches(equations: &EquationsOfMotion) -> Vec<(usize, f64)> {

@@ -44,6 +44,9 @@ pub(crate) fn choose(mode: &ModeEquation, (from, to): (f64, f64)) -> Vec<Respons
     sigmas.into_iter().flat_map(|sigma| flow.responses(sigma)).collect()
 }
 
+/// Steps of the integration over one period at most: beyond that a motion runs away.
+const MOST_STEPS: usize = 10_000;
+
 /// Samples of an orbit at least, and for each period of the harmonic that is looked at.
 const SAMPLES: usize = 256;
 const SAMPLES_PER_WAVE: usize = 16;
@@ -55,6 +58,8 @@ pub(crate) struct Verified {
     pub(crate) points: Vec<VerifiedPoint>,
     /// Responses near which no orbit was found.
     pub(crate) missed: Vec<Response>,
+    /// Responses that carry the shaft past the limit of its law, where nothing is to be found.
+    pub(crate) beyond: usize,
     /// Whether the user stopped the check before its end.
     pub(crate) cancelled: bool,
 }
@@ -69,10 +74,15 @@ pub(crate) fn periodic(
 ) -> Result<Option<Verified>, AnalysisError> {
     let Some(base) = common_order(&equations.excitation.orders()) else { return Ok(None) };
     let mut verified = Verified::default();
+    let room = equilibrium::room(equations, mode.reference, &mode.rest_twists);
     for point in points {
         if observer.cancelled() {
             verified.cancelled = true;
             break;
+        }
+        if point.rho() >= room {
+            verified.beyond += 1;
+            continue;
         }
         match check(equations, mode, point, base)? {
             Some(found) => verified.points.push(found),
@@ -106,6 +116,7 @@ fn check(
     let guess = guess(equations, mode, point, &motion);
     let mut settings = PeriodicSettings::default();
     settings.newton.typical = typical(&guess, mode, point);
+    settings.integration.step_limit = MOST_STEPS;
     let orbit = find_orbit(&mut motion, 0.0, period, &guess, &settings);
     // A line that runs away within the period has no orbit there: nothing to compare.
     let Ok(orbit) = orbit else { return Ok(None) };

@@ -42,7 +42,9 @@ fn after_static(result: &StaticResult) -> &'static str {
 
 fn after_history(result: &HistoryResult) -> Option<&'static str> {
     let shock = result.shock.as_ref()?;
-    shock.comparison.is_empty().then_some(
+    // Other methods are for one shaft between two inertias.
+    let fits = result.metrics.shafts.len() == 1;
+    (fits && shock.comparison.is_empty()).then_some(
         "`--compare` sets the other methods beside this one, `--out shock.html` shows the figures",
     )
 }

@@ -85,18 +85,20 @@ fn outside(result: &ResonanceResult, scaling: &ModeScaling, peak: f64) -> String
     let rows = result.branches.iter().flat_map(|branch| {
         branch.values("rho").iter().copied().zip(branch.values("frequency").iter().copied())
     });
-    let peak = frequency_words(peak);
+    // A bend that reaches speed zero has left what averaging can speak of.
+    let itself = if peak > 0.0 {
+        format!("the resonance itself lies outside it, at {}", frequency_words(peak))
+    } else {
+        "the bend goes on past what the closed form can speak of".to_owned()
+    };
     match rows.max_by(|a, b| a.0.total_cmp(&b.0)) {
         Some((rho, speed)) => format!(
-            "In the range asked for, the twist of the {} swings by at most ±{}, at {}; the resonance \
-             itself lies outside it, at {peak}.",
+            "In the range computed, the twist of the {} swings by at most ±{}, at {}; {itself}.",
             plain(&scaling.shaft),
             crate::words::angle(rho),
             frequency_words(speed)
         ),
-        None => {
-            format!("There is no response in the range asked for; the resonance lies at {peak}.")
-        }
+        None => format!("There is no response in the range computed; {itself}."),
     }
 }
 

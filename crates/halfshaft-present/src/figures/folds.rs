@@ -96,7 +96,7 @@ pub(super) fn areas(curves: &[(Vec<f64>, Vec<f64>)]) -> Vec<(Vec<f64>, Vec<f64>)
     let mut areas = Vec::new();
     let mut open: Vec<&(Vec<f64>, Vec<f64>)> = Vec::new();
     for curve in curves.iter().filter(|curve| curve.1.len() > 2) {
-        if turns(&curve.1) { areas.push(curve.clone()) } else { open.push(curve) }
+        if turns(&curve.1) { areas.push(closed(curve)) } else { open.push(curve) }
     }
     if let [(x, y), (x2, y2)] = open.as_slice() {
         let back = |first: &[f64], second: &[f64]| {
@@ -106,6 +106,24 @@ pub(super) fn areas(curves: &[(Vec<f64>, Vec<f64>)]) -> Vec<(Vec<f64>, Vec<f64>)
         areas.push((back(x, x2), back(y, y2)));
     }
     areas
+}
+
+/// A curve through its cusp as an area. Where one branch has left the speeds shown before the
+/// parameter ends, the border of the plane closes it, not a chord.
+fn closed((x, y): &(Vec<f64>, Vec<f64>)) -> (Vec<f64>, Vec<f64>) {
+    let (mut x, mut y) = (x.clone(), y.clone());
+    let (Some(first), Some(last)) = (x.first().zip(y.first()), x.last().zip(y.last())) else {
+        return (x, y);
+    };
+    let ((x0, y0), (x1, y1)) = ((*first.0, *first.1), (*last.0, *last.1));
+    let middle = f64::midpoint(y0, y1);
+    let farthest = |a: f64, b: &f64| if (b - middle).abs() > (a - middle).abs() { *b } else { a };
+    let cusp = y.iter().fold(middle, farthest);
+    // The branch that ends nearer to the cusp is the one that was cut short.
+    let corner = if (y0 - cusp).abs() < (y1 - cusp).abs() { (x0, y1) } else { (x1, y0) };
+    x.push(corner.0);
+    y.push(corner.1);
+    (x, y)
 }
 
 /// Whether the parameter goes to a turning point and back along a curve.

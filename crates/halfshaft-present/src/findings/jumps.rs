@@ -1,6 +1,6 @@
 //! Whether the response jumps, and how far that is.
 
-use halfshaft_results::{FoldsResult, ModeScaling, ReportResult};
+use halfshaft_results::{FoldsResult, ModeScaling, ReportResult, ResonanceResult};
 
 use super::{COMFORTABLE, Finding, Standing};
 use crate::account::folds::cusp_points;
@@ -10,6 +10,9 @@ use crate::words::{number, percent, plain, quantity};
 /// The jumps, or the distance to them in excitation and in damping.
 pub(super) fn jumps(report: &ReportResult) -> Option<Finding> {
     let result = report.resonance.as_ref()?;
+    if let Some(finding) = gives_way_first(report, result) {
+        return Some(finding);
+    }
     if !result.jumps.is_empty() {
         let mut sentences = vec!["The response jumps.".to_owned()];
         sentences.extend(resonance::jumps(result));
@@ -42,6 +45,21 @@ pub(super) fn jumps(report: &ReportResult) -> Option<Finding> {
     // A threshold below 1 without a jump in the range shown lies outside of it.
     let standing = if grows < COMFORTABLE { Standing::Watch } else { Standing::Safe };
     Some(Finding::new(standing, "Jumps", text))
+}
+
+/// Where the jumps lie past the limit of the shaft's law.
+fn gives_way_first(report: &ReportResult, result: &ResonanceResult) -> Option<Finding> {
+    let first = result.jumps.iter().map(|jump| jump.rho_before).reduce(f64::min)?;
+    let shaft = &result.scaling.first()?.shaft;
+    let room = super::vibration::room(report.statics.as_ref(), shaft)?;
+    let text = format!(
+        "Before it could jump the {} gives way: the jumps begin at a swing of ±{}, and only {} are \
+         left to the limit of its law.",
+        plain(shaft),
+        quantity(first, 4, "rad"),
+        quantity(room, 4, "rad")
+    );
+    (first > room).then(|| Finding::new(Standing::Unsafe, "Jumps", text))
 }
 
 fn factor(scaling: &ModeScaling) -> f64 {

@@ -85,8 +85,30 @@ pub(crate) fn of(report: &ReportResult) -> Vec<Finding> {
     found.extend(vibration::vibration(report));
     found.extend(jumps::jumps(report));
     found.extend(trust::trust(report));
+    found.extend(scope(report));
     found.sort_by_key(|finding| finding.standing);
     found
+}
+
+/// What the findings are about, where the model has more gears or modes than one.
+fn scope(report: &ReportResult) -> Option<Finding> {
+    let gears = report.statics.as_ref().is_some_and(|statics| statics.gears.len() > 1);
+    let elastic = report
+        .modes
+        .as_ref()
+        .map_or(0, |modes| modes.modes.iter().filter(|mode| mode.frequency > 0.0).count());
+    let mut limits = Vec::new();
+    if gears {
+        limits.push("in the gear that the model is in".to_owned());
+    }
+    if elastic > 1 {
+        limits.push(format!("resonance and jumps for mode 1 of {elastic}"));
+    }
+    let text = format!(
+        "Stability, shock, resonance and jumps are judged one by one under the mean torques, {}.",
+        limits.join(", ")
+    );
+    (!limits.is_empty()).then(|| Finding::new(Standing::Note, "Scope", text))
 }
 
 /// The findings in one sentence.

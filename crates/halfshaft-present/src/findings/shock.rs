@@ -34,7 +34,7 @@ pub(super) fn shock(report: &ReportResult) -> Option<Finding> {
     let (name, metrics) =
         shafts.max_by(|a, b| a.1.peak_torque.abs().total_cmp(&b.1.peak_torque.abs()))?;
     let text = format!("{}; no law has a limit to hold that against.", rise(name, metrics));
-    Some(Finding::new(Standing::Open, "Shock", text))
+    Some(Finding::new(Standing::Note, "Shock", text))
 }
 
 /// How far the torque of a shaft rises.

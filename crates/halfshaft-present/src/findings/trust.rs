@@ -8,6 +8,8 @@ use crate::words::{number, percent, quantity};
 
 /// A closed form within this of integration, at the largest response, is good for design.
 const GOOD: f64 = 0.05;
+/// Speeds within this part of that of the largest response count as beside it.
+const NEAR: f64 = 0.1;
 
 /// Closed forms against integration, and the energy balance.
 pub(super) fn trust(report: &ReportResult) -> Vec<Finding> {
@@ -25,16 +27,31 @@ fn closed_form(report: &ReportResult) -> Option<Finding> {
     let digits = if difference > 0.0 { -difference.log10() } else { 16.0 };
     let apart = (worst.frequency / top.frequency - 1.0).abs();
     let off = if apart > 0.15 { ", off the resonance, where averaging is rough" } else { "" };
+    // Two curves that cross agree at one point; what lies beside it tells more.
+    let beside = points
+        .iter()
+        .filter(|point| (point.frequency / top.frequency - 1.0).abs() <= NEAR)
+        .map(|point| point.relative_difference.abs())
+        .fold(0.0, f64::max);
+    let near = if beside > difference {
+        format!(", within {} of that speed to {}", percent(NEAR, 2), percent(beside, 2))
+    } else {
+        String::new()
+    };
     let text = format!(
         "At its largest response the closed form agrees with integration of the full equations \
-         to {} digits ({}). The largest difference in the range is {}, at {}{off}.",
+         to {} digits ({}){near}. The largest difference in the range is {}, at {}{off}.",
         number(digits.clamp(0.0, 16.0), 2),
         percent(difference, 2),
         percent(worst.relative_difference.abs(), 2),
         quantity(worst.frequency, 4, "rad/s")
     );
     let same = points.iter().all(|point| point.predicted_stable == point.integrated_stable);
-    let standing = if difference <= GOOD && same { Standing::Note } else { Standing::Watch };
+    let standing = if difference <= GOOD && beside <= 2.0 * GOOD && same {
+        Standing::Note
+    } else {
+        Standing::Watch
+    };
     Some(Finding::new(standing, "Agreement", text))
 }
 
