@@ -62,7 +62,7 @@ impl FoldTracer<'_> {
         observer: &dyn Observer,
     ) -> Result<FoldCurves, AnalysisError> {
         let mut result = FoldCurves::default();
-        let count = (self.points / 3).clamp(8, 100_000);
+        let count = (self.points / 5).clamp(8, 100_000);
         let mut runs: Vec<Vec<Slice>> = vec![Vec::new()];
         #[expect(clippy::cast_precision_loss, reason = "counts are small")]
         for index in 0..count {
@@ -226,7 +226,7 @@ impl FoldTracer<'_> {
         });
         let width = (high - low).max(f64::MIN_POSITIVE);
         #[expect(clippy::cast_precision_loss, reason = "counts are small")]
-        let step = 4.0 / self.points as f64;
+        let step = 5.0 / self.points as f64;
         let far = |a: &Slice, b: &Slice| {
             let rise = (a.parameter - b.parameter) / height;
             let pairs = a.folds.iter().zip(&b.folds);
