@@ -4,7 +4,7 @@ use std::process::Command;
 
 use crate::run::{Outcome, finish, has, root, target};
 
-const TARGETS: &[&str] = &["model_file", "options"];
+const TARGETS: &[&str] = &["model_file", "study_file", "options", "result"];
 /// Seconds for all targets together.
 const SECONDS: usize = 60;
 

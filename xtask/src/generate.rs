@@ -1,7 +1,7 @@
 //! What is generated and committed: schema, reference pages, the example's figures, README output.
 //!
 //! Texts must be equal to the letter. Pictures are compared number by number, since the last
-//! digit of a cosine differs between machines.
+//! digit of a cosine differs between machines. A file that is no longer generated is stale as well.
 
 use std::fs;
 use std::path::Path;
@@ -12,6 +12,9 @@ use crate::run::{Outcome, finish, halfshaft, root, target};
 
 /// Largest distance between two numbers of a picture, in points, that is still the same picture.
 const SAME_POINT: f64 = 0.03;
+
+/// Folders that hold nothing but generated files. The reference pages stand among others.
+const FOLDERS: [&str; 3] = ["docs/pictures", "schema", "examples/two-mass-driveline/figures"];
 
 /// Writes everything into the tree.
 pub fn write() -> Outcome {
@@ -26,6 +29,9 @@ pub fn check() -> Outcome {
     produce(&fresh)?;
     let mut stale = Vec::new();
     compare(&fresh, &fresh, &mut stale);
+    for folder in FOLDERS {
+        left_over(&fresh.join(folder), &root().join(folder), &mut stale);
+    }
     if stale.is_empty() {
         println!("generated files: up to date");
         return Ok(());
@@ -43,7 +49,7 @@ fn produce(folder: &Path) -> Outcome {
         )
     };
     let path = |name: &str| folder.join(name).display().to_string();
-    for needed in ["docs/pictures", "schema", "examples/two-mass-driveline/figures"] {
+    for needed in FOLDERS {
         fs::create_dir_all(folder.join(needed)).map_err(|error| format!("{needed}: {error}"))?;
     }
     for of in ["model", "study"] {
@@ -86,6 +92,20 @@ fn compare(fresh: &Path, folder: &Path, stale: &mut Vec<String>) {
     }
 }
 
+/// Notes the files of a generated folder that are no longer generated.
+fn left_over(fresh: &Path, committed: &Path, stale: &mut Vec<String>) {
+    for entry in fs::read_dir(committed).into_iter().flatten().flatten() {
+        let path = entry.path();
+        let twin = fresh.join(entry.file_name());
+        if path.is_dir() {
+            left_over(&twin, &path, stale);
+        } else if !twin.is_file() {
+            let name = path.strip_prefix(root()).unwrap_or(&path).display();
+            stale.push(format!("{name} (no longer generated: remove it)"));
+        }
+    }
+}
+
 fn same(fresh: &Path, committed: &Path) -> bool {
     let ending = fresh.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     match ending {
@@ -121,4 +141,24 @@ fn pieces(text: &str) -> Vec<&str> {
         rest = &rest[end..];
     }
     pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_that_are_no_longer_generated_are_noticed() {
+        let folder = target().join(format!("generate-test-{}", std::process::id()));
+        let (fresh, committed) = (folder.join("fresh"), folder.join("committed"));
+        for file in [fresh.join("a"), committed.join("a"), committed.join("old/b")] {
+            fs::create_dir_all(file.parent().expect("has one")).expect("makes");
+            fs::write(file, "").expect("writes");
+        }
+        let mut stale = Vec::new();
+        left_over(&fresh, &committed, &mut stale);
+        fs::remove_dir_all(&folder).expect("removes");
+        assert_eq!(stale.len(), 1, "{stale:?}");
+        assert!(stale[0].contains("b (no longer generated"), "{stale:?}");
+    }
 }

@@ -22,7 +22,7 @@ const USAGE: &str = "usage: cargo xtask TASK
   generate    write what is generated: schema, reference pages, example figures, README output
   readme      the README's commands alone
   page        the report in a headless browser alone
-  fuzz        a minute of fuzzing each parser (needs a nightly toolchain)
+  fuzz        a minute of fuzzing all that reads text (needs a nightly toolchain)
   bench       all criterion benches
 ";
 

@@ -6,15 +6,20 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use halfshaft::Diagnostics;
 use halfshaft::model::{Diagnostic, Severity, Source};
 
-/// All findings as text for standard error, with colours where that is a terminal.
+/// Findings as text for standard error, with colours where that is a terminal; of many the first
+/// ones.
 pub fn render(found: &Diagnostics) -> String {
     let coloured = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let renderer = if coloured { Renderer::styled() } else { Renderer::plain() };
     let mut paragraphs: Vec<String> = Vec::new();
-    for item in &found.items {
+    let (shown, more) = found.shown();
+    for item in shown {
         if let Some(source) = found.sources.get(item.source) {
             paragraphs.push(renderer.render(&[group(item, source)]));
         }
+    }
+    if more > 0 {
+        paragraphs.push(format!("and {more} more"));
     }
     let errors = found.errors().count();
     if errors > 1 {

@@ -145,6 +145,8 @@ fn wrong_options_are_told_all_at_once() {
         ),
         (&["folds", "--parameter", "vehicle.inertia=-5..100"], "must be more than zero"),
         (&["folds", "--parameter", "mode.g=1..2"], "mode.alpha, mode.beta, mode.f, mode.omega_1"),
+        (&["folds", "--parameter", "engine torque.order=1..3"], "has no effect on fold curves"),
+        (&["folds", "--parameter", "gearbox.ratios.1=1..3"], "take \"gearbox.ratio\""),
         (&["static", "--set", "vehicle.inertia=-5"], "must be more than zero"),
         (&["static", "--set", "road load.peak=-5"], "did you mean \"road load.pulse.peak\""),
         (&["shock", "--method", "full", "--order", "1"], "only the method multiple-scales"),

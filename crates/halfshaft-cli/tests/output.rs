@@ -240,6 +240,30 @@ fn ctrl_c_ends_the_computation_and_writes_what_was_reached() {
     assert!(!times.is_empty() && *times.last().expect("samples") < 99_000.0);
 }
 
+// Source: the contract: the second Ctrl-C ends the program with status 130. A model that comes from
+// a pipe which nobody fills never looks for interrupts.
+#[cfg(unix)]
+#[test]
+fn a_second_ctrl_c_ends_what_does_not_look_for_it() {
+    let folder = folder();
+    let mut command = command(folder.path(), &["static", "/dev/stdin", "--out", "a.json"]);
+    let mut child = command
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("starts");
+    interrupt(&child, 300);
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    assert!(child.try_wait().expect("asks").is_none(), "the first one only asks");
+    interrupt(&child, 0);
+    let stdin = child.stdin.take();
+    let result = told(child.wait_with_output().expect("ends"));
+    drop(stdin);
+    assert_eq!(result.status, 130, "{}", result.err);
+    assert!(files(folder.path()).is_empty());
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupt_in_mid_write_leaves_nothing_under_the_name() {

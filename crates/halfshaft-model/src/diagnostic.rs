@@ -23,14 +23,16 @@ impl Source {
     }
 
     /// Line and column, both from 1 and the column in characters, of a byte offset.
+    ///
+    /// Reads the text from its start; for many places see [`Source::lines`].
     pub fn position(&self, offset: usize) -> (usize, usize) {
-        let mut offset = offset.min(self.text.len());
-        while !self.text.is_char_boundary(offset) {
-            offset -= 1;
-        }
-        let before = &self.text[..offset];
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+        self.lines().position(offset)
+    }
+
+    /// The lines of the text, to find many places.
+    pub fn lines(&self) -> Lines<'_> {
+        let ends = self.text.match_indices('\n').map(|(at, _)| at + 1);
+        Lines { text: &self.text, starts: std::iter::once(0).chain(ends).collect() }
     }
 
     /// The text at `span`, cut at the first line end.
@@ -39,8 +41,29 @@ impl Source {
     }
 }
 
+/// Where the lines of a text begin.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Lines<'s> {
+    text: &'s str,
+    starts: Vec<usize>,
+}
+
+impl Lines<'_> {
+    /// Line and column, both from 1 and the column in characters, of a byte offset.
+    pub fn position(&self, offset: usize) -> (usize, usize) {
+        let mut offset = offset.min(self.text.len());
+        while !self.text.is_char_boundary(offset) {
+            offset -= 1;
+        }
+        let line = self.starts.partition_point(|start| *start <= offset);
+        let start = line.checked_sub(1).and_then(|line| self.starts.get(line));
+        let before = &self.text[start.copied().unwrap_or(0)..offset];
+        (line, before.chars().count() + 1)
+    }
+}
+
 /// Whether a diagnostic forbids to go on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Severity {
     /// The model cannot be used.
     Error,
@@ -49,7 +72,7 @@ pub enum Severity {
 }
 
 /// A second place that belongs to a diagnostic.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Related {
     /// Bytes in the same source.
     pub span: Range<usize>,
@@ -58,7 +81,7 @@ pub struct Related {
 }
 
 /// One finding with its place.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Diagnostic {
     /// Whether it forbids to go on.
     pub severity: Severity,
@@ -121,6 +144,9 @@ impl Diagnostic {
     }
 }
 
+/// Most findings that are shown of one text.
+const MOST_SHOWN: usize = 50;
+
 /// All findings about one or more texts, with the texts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostics {
@@ -151,17 +177,22 @@ impl Diagnostics {
         self.items.iter().filter(|item| item.severity == Severity::Error)
     }
 
-    /// The findings that do not forbid to go on.
-    pub fn warnings(&self) -> impl Iterator<Item = &Diagnostic> {
-        self.items.iter().filter(|item| item.severity == Severity::Warning)
+    /// The findings that are worth showing, and how many more there are: nobody mends hundreds
+    /// before trying again.
+    pub fn shown(&self) -> (&[Diagnostic], usize) {
+        let shown = self.items.len().min(MOST_SHOWN);
+        (&self.items[..shown], self.items.len() - shown)
     }
 
-    /// One paragraph a finding, `file:line:column: message`, without colours.
+    /// One paragraph a finding, `file:line:column: message`, without colours; of many the first
+    /// ones, see [`Diagnostics::shown`].
     pub fn plain(&self) -> String {
+        let lines: Vec<Lines<'_>> = self.sources.iter().map(Source::lines).collect();
+        let (shown, more) = self.shown();
         let mut text = String::new();
-        for item in &self.items {
+        for item in shown {
             let Some(source) = self.sources.get(item.source) else { continue };
-            let (line, column) = source.position(item.span.start);
+            let (line, column) = lines[item.source].position(item.span.start);
             let word = match item.severity {
                 Severity::Error => "error",
                 Severity::Warning => "warning",
@@ -176,19 +207,34 @@ impl Diagnostics {
                 let _ = writeln!(text, "  hint: {hint}");
             }
         }
+        if more > 0 {
+            let _ = writeln!(text, "and {more} more");
+        }
         text
     }
 }
 
+/// Longest text that is looked up among names: the comparison takes memory for each pair of letters.
+const LONGEST_NAME: usize = 1000;
+
 /// The name in `known` that is nearest to `text`, where one is near enough to be meant.
 pub fn nearest<'k>(text: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let folded = text.to_lowercase();
-    known
-        .into_iter()
-        .map(|name| (strsim::damerau_levenshtein(&folded, &name.to_lowercase()), name))
-        .filter(|(distance, name)| *distance <= 1.max(name.chars().count() / 3))
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, name)| name)
+    let length = folded.chars().count();
+    if length > LONGEST_NAME {
+        return None;
+    }
+    let near = known.into_iter().filter_map(|name| {
+        let limit = 1.max(name.chars().count() / 3);
+        let other = name.to_lowercase();
+        // No less than the difference of the lengths has to change.
+        if other.chars().count().abs_diff(length) > limit {
+            return None;
+        }
+        let distance = strsim::damerau_levenshtein(&folded, &other);
+        (distance <= limit).then_some((distance, name))
+    });
+    near.min_by_key(|(distance, _)| *distance).map(|(_, name)| name)
 }
 
 /// The [`nearest`] name as a question.
@@ -213,6 +259,30 @@ mod tests {
         assert_eq!(source.position(7), (1, 7)); // µ has two bytes and one character
         assert_eq!(source.position(source.text.find("fric").expect("is there")), (2, 1));
         assert_eq!(source.position(10_000), (3, 1));
+    }
+
+    // Source: two paths to one thing: the lines of the text as the standard library splits them.
+    #[test]
+    fn lines_give_the_same_places_as_splitting_the_text() {
+        let source = Source::new("line.toml", "\na = \"µ\"\r\n\nb\n");
+        let lines = source.lines();
+        let mut offset = 0;
+        for (number, line) in source.text.split('\n').enumerate() {
+            for (column, (at, _)) in line.char_indices().enumerate() {
+                assert_eq!(lines.position(offset + at), (number + 1, column + 1));
+            }
+            offset += line.len() + 1;
+        }
+    }
+
+    #[test]
+    fn of_many_findings_the_first_are_shown() {
+        let mut found = Diagnostics::about(Source::new("line.toml", "a"));
+        found.items.extend((0..60).map(|number| Diagnostic::error(0..1, format!("no {number}."))));
+        let text = found.plain();
+        assert!(
+            text.contains("no 49.") && !text.contains("no 50.") && text.ends_with("and 10 more\n")
+        );
     }
 
     #[test]

@@ -6,7 +6,9 @@
 
 use crate::diagnostic::did_you_mean;
 use crate::driveline::Driveline;
-use crate::elements::{GEAR, HARMONIC, INERTIA, MeanTorque, PULSE, SHAFT, TORQUE};
+use crate::elements::{
+    GEAR, HARMONIC, Harmonic, INERTIA, MeanTorque, PULSE, SHAFT, TORQUE, Torque,
+};
 use crate::format::{TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
 
@@ -211,7 +213,27 @@ impl Parameter {
 
     /// Whether another value makes other gear ratios.
     pub(crate) fn changes_gears(&self) -> bool {
-        self.list == List::Gear
+        self.list == List::Gear && !self.is_listed_ratio()
+    }
+
+    /// Whether it is one of the ratios that a gearbox could be switched to.
+    pub(crate) fn is_listed_ratio(&self) -> bool {
+        self.list == List::Gear && self.key.starts_with("ratios.")
+    }
+
+    /// The key within its element, e.g. `pulse.peak`.
+    pub(crate) fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// The torque that it belongs to, if any.
+    pub(crate) fn torque<'l>(&self, line: &'l Driveline) -> Option<&'l Torque> {
+        line.torques.get(self.index).filter(|_| self.list == List::Torque)
+    }
+
+    /// The harmonic of a torque that it belongs to, if any, and its key within that.
+    pub(crate) fn harmonic<'l>(&self, line: &'l Driveline) -> Option<(&'l Harmonic, &str)> {
+        self.torque(line)?.harmonic(&self.key)
     }
 
     /// Whether the word "balance" may stand here.

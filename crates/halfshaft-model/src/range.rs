@@ -66,9 +66,8 @@ impl RangeError {
 /// As [`parse_quantity`], except that a number without a unit is read as SI.
 pub fn parse_flag_quantity(text: &str, kind: QuantityKind) -> Result<f64, QuantityError> {
     match parse_quantity(text, kind) {
-        Ok(quantity) => Ok(quantity.si),
-        Err(QuantityError::NoUnit { .. }) => Ok(parse_quantity(text, QuantityKind::Number)?.si),
-        Err(error) => Err(error),
+        Err(QuantityError::NoUnit { .. }) => parse_quantity(text, QuantityKind::Number),
+        read => read,
     }
 }
 

@@ -157,3 +157,36 @@ fn nouns_have_their_articles() {
     let ground = told(&[("name = \"vehicle\"", "name = \"ground\"")], &[]);
     assert!(ground.iter().any(|(m, _)| m.contains("an inertia cannot be named")), "{ground:?}");
 }
+
+/// A line of `count` shafts from one hub, each to a node of its own that no inertia names.
+fn misspelt(count: usize) -> String {
+    let mut text =
+        "format = 1\nname = \"x\"\n[[inertia]]\nname = \"hub\"\ninertia = 1\n".to_owned();
+    for number in 0..count {
+        text += &format!("[[inertia]]\nname = \"wheel number {number}\"\ninertia = 1\n");
+        text += &format!("[[gear]]\nname = \"gear {number}\"\nratio = 2\n");
+        text += &format!("input = \"hub\"\noutput = \"wheel number {number}\"\n");
+        text += &format!("[[shaft]]\nname = \"shaft {number}\"\nstiffness = 1\n");
+        text += &format!("from = \"hub\"\nto = \"weel number {number}\"\n");
+        text +=
+            &format!("[[torque]]\nname = \"torque {number}\"\nmean = 1\non = \"weel {number}\"\n");
+    }
+    text
+}
+
+// Source: the clock: twice the mistakes take about twice the time. Eight times would be sixty-four
+// times for a reader that holds every name against every other.
+#[test]
+fn many_mistakes_take_time_in_proportion() {
+    let time = |count: usize| {
+        let text = misspelt(count);
+        let start = std::time::Instant::now();
+        let found = read_model(Source::new("x", text), &[]).expect_err("has mistakes");
+        assert!(found.items.len() >= count);
+        assert!(found.plain().contains("did you mean \"wheel number 0\"?"));
+        start.elapsed()
+    };
+    time(100);
+    let (few, many) = (time(500), time(4000));
+    assert!(many < 25 * few, "{few:?}, then {many:?}");
+}

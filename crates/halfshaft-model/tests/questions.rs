@@ -78,6 +78,68 @@ fn a_range_must_hold_legal_values_only() {
     assert_eq!(folds(&line, "mode.f=0..20"), Ok((0.0, 20.0)));
 }
 
+// Source: the theory: fold curves are of one order of the torques that follow the excitation speed.
+#[test]
+fn a_parameter_without_effect_on_folds_is_refused() {
+    let harmonics = "amplitude = \"40 N·m\"\nharmonics = [ { order = 2, amplitude = 60 } ]";
+    let line = example_with("amplitude = \"40 N·m\"", harmonics);
+    for (parameter, words, hint) in [
+        ("gearbox.ratios.1=1..3", "a list of ratios", "\"gearbox.ratio\""),
+        ("road load.pulse.peak=1..3", "acts once", "shock"),
+        ("road load.pulse.start=1..3", "acts once", "shock"),
+        ("engine torque.frequency=1..3", "speed of its own", "other axis"),
+        ("engine torque.order=1..3", "one order", "--order"),
+        ("engine torque.harmonics.1.order=1..3", "one order", "--order"),
+        ("engine torque.phase=1..3", "no other torque of order", "time"),
+    ] {
+        let errors = folds(&line, parameter).expect_err("has no effect");
+        assert!(errors[0].message.contains("has no effect on fold curves"), "{errors:?}");
+        assert!(errors[0].message.contains(words), "{parameter}: {errors:?}");
+        assert!(errors[0].hint.contains(hint), "{parameter}: {errors:?}");
+    }
+    assert_eq!(folds(&line, "engine torque.harmonics.1.amplitude=1..3"), Ok((1.0, 3.0)));
+    assert_eq!(folds(&line, "engine torque.mean=1..3"), Ok((1.0, 3.0)));
+    let parameter = Some("engine torque.harmonics.1.amplitude=1..3".to_owned());
+    let other = QuestionText { parameter, order: Some("1".to_owned()), ..QuestionText::default() };
+    let errors = read(Verb::Folds, &other, &line).expect_err("is of another order");
+    assert!(errors[0].hint.contains("--order 2"), "{errors:?}");
+    let fixed = "amplitude = \"40 N·m\"\nfrequency = \"20 Hz\"";
+    let line = example_with("amplitude = \"40 N·m\"", fixed);
+    let errors = folds(&line, "engine torque.amplitude=1..3").expect_err("does not follow");
+    assert!(errors[0].message.contains("has a speed of its own"), "{errors:?}");
+}
+
+/// Two shafts side by side behind a gear each: the loop turns while both gears have one ratio.
+const LOOP: &str = "format = 1\nname = \"loop\"\n\
+    [[inertia]]\nname = \"a\"\ninertia = 1\n[[inertia]]\nname = \"b\"\ninertia = 1\n\
+    [[gear]]\nname = \"g1\"\ninput = \"a\"\noutput = \"p\"\nratio = 2\nratios = [2, 3]\n\
+    [[gear]]\nname = \"g2\"\ninput = \"a\"\noutput = \"q\"\nratio = 2\n\
+    [[shaft]]\nname = \"s1\"\nfrom = \"p\"\nto = \"b\"\nstiffness = 100\n\
+    [[shaft]]\nname = \"s2\"\nfrom = \"q\"\nto = \"b\"\nstiffness = 100\n";
+
+// Source: two paths to one thing: a value that --set refuses is refused along a sweep as well.
+#[test]
+fn a_value_that_locks_a_loop_of_shafts_is_refused_however_it_is_set() {
+    let source = || Source::new("line.toml", LOOP);
+    let (line, _) = read_model(source(), &[]).unwrap_or_else(|found| panic!("{}", found.plain()));
+    let setting = SetFlag("g1.ratio=3".to_owned());
+    let found = read_model(source(), &[setting]).expect_err("cannot turn").plain();
+    let ratio = line.parameter("g1.ratio").expect("is a number");
+    let error = line.with(&ratio, 3.0).expect_err("cannot turn").to_string();
+    for words in ["the loop that shaft \"s2\" closes cannot turn", "times the speed of \"b\""] {
+        assert!(error.contains(words), "{error}");
+        assert!(found.contains(words), "{found}");
+    }
+    assert!(error.starts_with("with g1.ratio = 3: "), "{error}");
+    assert!(line.with(&ratio, 2.0).is_ok());
+    assert!(folds(&line, "g1.ratio=2..3").is_err());
+    // Held at ground, the line need not turn.
+    let held = LOOP.to_owned()
+        + "[[shaft]]\nname = \"mount\"\nfrom = \"b\"\nto = \"ground\"\nstiffness = 1\n";
+    let (held, _) = read_model(Source::new("line.toml", held), &[]).expect("is sound");
+    assert!(held.with(&ratio, 3.0).is_ok());
+}
+
 #[test]
 fn a_wrong_coefficient_of_the_mode_is_told_the_right_ones() {
     for parameter in ["mode.g=1..2", "mode.=1..2"] {
@@ -98,6 +160,17 @@ fn a_name_may_hold_an_equals_sign() {
     let initial = vec!["k = 0.twist=1 rad".to_owned()];
     let text = QuestionText { initial, ..QuestionText::default() };
     assert!(read(Verb::Simulate, &text, &line).is_ok());
+}
+
+#[test]
+fn a_question_knows_its_verb() {
+    let parameter = Some("half-shaft.cubic=-700..0".to_owned());
+    for (name, verb) in Verb::ALL {
+        let needed = parameter.clone().filter(|_| verb == Verb::Folds);
+        let text = QuestionText { parameter: needed, ..QuestionText::default() };
+        let question = read(verb, &text, &example()).expect("has no options");
+        assert_eq!((question.verb(), question.verb().name()), (verb, name));
+    }
 }
 
 #[test]
@@ -129,6 +202,34 @@ fn options_without_effect_are_refused() {
     // What follows from a wrong duration is not told.
     let wrong = QuestionText { duration: some("9kg"), step: some("7s"), ..plain() };
     assert_eq!(read(Verb::Simulate, &wrong, &example()).expect_err("is wrong").len(), 1);
+}
+
+// Source: by hand: 2e8 numbers over the columns of each line.
+#[test]
+fn a_history_holds_so_many_numbers_however_many_channels_the_line_has() {
+    let asked = |line: &Driveline, step: Option<&str>| {
+        let step = step.map(str::to_owned);
+        let record = Some("1s..2s".to_owned());
+        let text = QuestionText { step, record, ..QuestionText::default() };
+        read(Verb::Simulate, &text, line)
+    };
+    // The example has one shaft and four nodes: 12 columns, and 2e8/12 samples of each.
+    assert!(asked(&example(), Some("6.1e-8s")).is_ok());
+    let errors = asked(&example(), Some("5.9e-8s")).expect_err("too many");
+    assert!(errors[0].message.contains("too many samples"), "{errors:?}");
+    assert!(errors[0].hint.contains("12 columns, so at most 16666666 samples"), "{errors:?}");
+    let mut text =
+        String::from("format = 1\nname = \"long\"\n[[inertia]]\nname = \"0\"\ninertia = 1\n");
+    for number in 1..=21_000 {
+        let before = number - 1;
+        text += &format!("[[inertia]]\nname = \"{number}\"\ninertia = 1\n");
+        text += &format!("[[shaft]]\nname = \"s{number}\"\nstiffness = 1\n");
+        text += &format!("from = \"{before}\"\nto = \"{number}\"\n");
+    }
+    let (long, _) = read_model(Source::new("long.toml", text), &[]).expect("is sound");
+    let errors = asked(&long, None).expect_err("the step of its own is too small");
+    assert!(errors[0].message.contains("where no step is given"), "{errors:?}");
+    assert!(asked(&long, Some("1ms")).is_ok());
 }
 
 // Source: what the program reads: a ratio is a number or a text with a number.

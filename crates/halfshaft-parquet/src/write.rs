@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use halfshaft_results::{Answer, Table, io::tables_of};
+use halfshaft_results::{Answer, Table, column_names, io::tables_of};
 use parquet::basic::{Encoding, Repetition, Type as PhysicalType};
 use parquet::data_type::{DoubleType, Int32Type};
 use parquet::file::metadata::KeyValue;
@@ -35,17 +35,6 @@ pub fn to_bytes(answer: &Answer) -> Result<Vec<u8>, ParquetError> {
         group.close()?;
     }
     Ok(writer.into_inner()?)
-}
-
-/// Names and units of all columns of all tables, each once.
-fn column_names(tables: &[Table]) -> Vec<(String, String)> {
-    let mut names: Vec<(String, String)> = Vec::new();
-    for column in tables.iter().flat_map(|table| &table.columns) {
-        if !names.iter().any(|(name, _)| *name == column.name) {
-            names.push((column.name.clone(), column.unit.clone()));
-        }
-    }
-    names
 }
 
 fn metadata(answer: &Answer, names: &[(String, String)]) -> Result<Vec<KeyValue>, ParquetError> {
@@ -84,9 +73,9 @@ fn write_table(
         column.typed::<Int32Type>().write_batch(&vec![number; rows], None, None)?;
         column.close()?;
     }
-    for (name, _) in names {
+    for values in table.values_of(names.iter().map(|(name, _)| name.as_str())) {
         let Some(mut column) = group.next_column()? else { break };
-        let mut values = table.values(name).to_vec();
+        let mut values = values.to_vec();
         values.resize(rows, f64::NAN);
         column.typed::<DoubleType>().write_batch(&values, None, None)?;
         column.close()?;

@@ -7,6 +7,7 @@ use halfshaft::results::{Column, HistoryResult};
 use halfshaft::{Answer, Driveline, Silent, Verb, ask, load, load_embedded, report, run_study};
 use halfshaft_parquet::{ParquetError, from_bytes, to_bytes};
 use proptest::prelude::{any, prop_assert_eq, proptest};
+use serde_json::Value;
 use std::path::Path;
 
 fn root() -> &'static Path {
@@ -72,6 +73,62 @@ fn reports_and_studies_come_back_equal() {
     let answer = Answer::Study(run_study(&study, &Silent));
     let text = to_json(&answer, false).expect("plain data");
     assert_eq!(from_json(&text).expect("own text"), answer);
+}
+
+/// Puts `null` for every number of a JSON text that has a point; whole numbers are counts. The
+/// settings are no numbers of the result.
+fn without_numbers(value: &mut Value) {
+    match value {
+        Value::Number(number) if number.is_f64() => *value = Value::Null,
+        Value::Array(items) => items.iter_mut().for_each(without_numbers),
+        Value::Object(fields) => {
+            let fields = fields.iter_mut().filter(|(name, _)| *name != "settings");
+            fields.for_each(|(_, value)| without_numbers(value));
+        }
+        _ => {}
+    }
+}
+
+// Source: the form of the files: JSON writes what is no finite number as null. No number of any
+// answer may make its file unreadable.
+#[test]
+fn every_number_of_every_answer_may_be_missing() {
+    for answer in answers() {
+        let name = &answer.header().analysis;
+        let mut value = serde_json::to_value(&answer).expect("plain data");
+        without_numbers(&mut value);
+        let text = value.to_string();
+        let back = from_json(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let same = |answer: &Answer| serde_json::to_value(answer).expect("plain data") == value;
+        assert!(same(&back), "{name} through JSON");
+        if let Ok(bytes) = to_bytes(&back) {
+            assert!(same(&from_bytes(bytes).expect("own file")), "{name} through Parquet");
+        }
+    }
+}
+
+// Source: the contract of the results: infinities are written as null and come back as NaN.
+#[test]
+fn infinities_come_back_as_nan() {
+    let example = load_embedded(&[]).expect("is sound").line;
+    let question = read(Verb::Shock, &QuestionText::default(), &example).expect("right");
+    let Answer::History(mut history) = ask(&example, &question, &Silent).expect("answered") else {
+        unreachable!("shock answers with a history")
+    };
+    let energy = history.metrics.energy_balance.as_mut().expect("integrated");
+    (energy.work, energy.residual) = (f64::INFINITY, f64::NAN);
+    history.metrics.shafts[0].peak_torque = f64::NEG_INFINITY;
+    history.metrics.shafts[0].first_peak = Some(f64::NAN);
+    let answer = Answer::History(history);
+    let text = to_json(&answer, true).expect("plain data");
+    let bytes = to_bytes(&answer).expect("has a table");
+    for back in [from_json(&text).expect("own text"), from_bytes(bytes).expect("own file")] {
+        let Answer::History(back) = back else { panic!("a history") };
+        let energy = back.metrics.energy_balance.expect("integrated");
+        assert!(energy.work.is_nan() && energy.residual.is_nan() && energy.stored.is_finite());
+        assert!(back.metrics.shafts[0].peak_torque.is_nan());
+        assert_eq!(back.metrics.shafts[0].first_peak, None);
+    }
 }
 
 #[test]

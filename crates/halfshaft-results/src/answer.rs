@@ -4,7 +4,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::{
-    CheckResult, Column, FoldsResult, Header, HistoryResult, ModesResult, ReportResult,
+    CheckResult, Column, FoldsResult, Header, HistoryResult, ModesResult, Named, ReportResult,
     ResonanceResult, StaticResult, StudyResult, Table,
 };
 
@@ -104,13 +104,18 @@ fn numbered(name: &str, tables: impl Iterator<Item = Table>) -> Vec<(String, Tab
     tables.enumerate().map(|(index, table)| (format!("{name} {}", index + 1), table)).collect()
 }
 
+/// The number of that name; a file from elsewhere may lack it.
+fn of(values: &Named<f64>, name: &str) -> f64 {
+    values.get(name).copied().unwrap_or(f64::NAN)
+}
+
 fn equilibria(result: &StaticResult) -> Table {
     let rows = &result.equilibria;
     let shafts = rows.first().map(|row| row.twist.keys()).into_iter().flatten();
     let mut columns = Vec::new();
     for shaft in shafts {
-        let twist = rows.iter().map(|row| row.twist[shaft.as_str()]).collect();
-        let torque = rows.iter().map(|row| row.torque[shaft.as_str()]).collect();
+        let twist = rows.iter().map(|row| of(&row.twist, shaft)).collect();
+        let torque = rows.iter().map(|row| of(&row.torque, shaft)).collect();
         columns.push(Column::new(format!("{shaft}.twist"), "rad", twist));
         columns.push(Column::new(format!("{shaft}.torque"), "N·m", torque));
     }
@@ -130,7 +135,7 @@ fn modes(result: &ModesResult) -> Table {
         column("damping_ratio", "1", |mode| mode.damping_ratio),
     ];
     for node in rows.first().map(|mode| mode.shape.keys()).into_iter().flatten() {
-        let shape = rows.iter().map(|mode| mode.shape[node.as_str()]).collect();
+        let shape = rows.iter().map(|mode| of(&mode.shape, node)).collect();
         columns.push(Column::new(format!("{node}.shape"), "1", shape));
     }
     Table::new(columns)

@@ -10,10 +10,13 @@ pub struct Member {
     /// Name of the node.
     pub node: String,
     /// Its own inertia, kg·m²; 0 where it has none.
+    #[serde(deserialize_with = "crate::number::read")]
     pub inertia: f64,
     /// Its speed over the speed of the reference node.
+    #[serde(deserialize_with = "crate::number::read")]
     pub ratio: f64,
     /// Its damping to ground, N·m·s/rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub damping: f64,
 }
 
@@ -23,6 +26,7 @@ pub struct ReducedInertia {
     /// Node to which the inertia is reduced.
     pub reference: String,
     /// Sum of `ratio² · inertia`, kg·m².
+    #[serde(deserialize_with = "crate::number::read")]
     pub inertia: f64,
     /// The nodes.
     pub members: Vec<Member>,
@@ -38,8 +42,10 @@ pub struct CheckedGear {
     /// Output node.
     pub output: String,
     /// Input speed over output speed.
+    #[serde(deserialize_with = "crate::number::read")]
     pub ratio: f64,
     /// Other ratios that it offers.
+    #[serde(deserialize_with = "crate::number::read")]
     pub ratios: Vec<f64>,
 }
 
@@ -49,6 +55,7 @@ pub struct NonlinearTerm {
     /// Key of the term, e.g. `cubic`.
     pub key: String,
     /// Its coefficient.
+    #[serde(deserialize_with = "crate::number::read")]
     pub coefficient: f64,
     /// Unit of the coefficient.
     pub unit: String,
@@ -66,8 +73,10 @@ pub struct CheckedShaft {
     /// Node at the `to` end.
     pub to: String,
     /// Linear stiffness, N·m/rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub stiffness: f64,
     /// Damping, N·m·s/rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub damping: f64,
     /// Terms beyond the linear one that are not zero.
     pub nonlinear_terms: Vec<NonlinearTerm>,
@@ -92,10 +101,13 @@ pub struct CheckedTorque {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CheckedHarmonic {
     /// Times per turn of the excitation.
+    #[serde(deserialize_with = "crate::number::read")]
     pub order: f64,
     /// N·m.
+    #[serde(deserialize_with = "crate::number::read")]
     pub amplitude: f64,
     /// rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub phase: f64,
 }
 
@@ -107,10 +119,13 @@ pub struct CheckedPulse {
     /// Largest torque, N·m; `None` for an impulse.
     pub peak: Option<f64>,
     /// When it begins, s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub start: f64,
     /// How long it lasts (a ramp: how long it rises), s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub duration: f64,
     /// Torque over time, N·m·s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub angular_impulse: f64,
 }
 

@@ -8,16 +8,22 @@ use crate::{Column, Header, Named, Table};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
     /// Kinetic and potential energy at the start, J.
+    #[serde(deserialize_with = "crate::number::read")]
     pub initial: f64,
     /// Kinetic and potential energy at the end, J.
+    #[serde(deserialize_with = "crate::number::read")]
     pub stored: f64,
     /// Work done by the external torques, J.
+    #[serde(deserialize_with = "crate::number::read")]
     pub work: f64,
     /// Heat in the dampers, J.
+    #[serde(deserialize_with = "crate::number::read")]
     pub dissipated: f64,
     /// `initial + work - dissipated - stored`, J.
+    #[serde(deserialize_with = "crate::number::read")]
     pub residual: f64,
     /// The residual over the energy that was turned over.
+    #[serde(deserialize_with = "crate::number::read")]
     pub relative_residual: f64,
 }
 
@@ -25,12 +31,16 @@ pub struct EnergyBalance {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChannelMetrics {
     /// Smallest value.
+    #[serde(deserialize_with = "crate::number::read")]
     pub minimum: f64,
     /// Largest value.
+    #[serde(deserialize_with = "crate::number::read")]
     pub maximum: f64,
     /// Half of peak to peak.
+    #[serde(deserialize_with = "crate::number::read")]
     pub amplitude: f64,
     /// Mean over time.
+    #[serde(deserialize_with = "crate::number::read")]
     pub mean: f64,
 }
 
@@ -47,10 +57,13 @@ pub struct ShaftMetrics {
     /// When, s.
     pub first_rate_peak_time: Option<f64>,
     /// Torque of largest magnitude, with its sign, N·m.
+    #[serde(deserialize_with = "crate::number::read")]
     pub peak_torque: f64,
     /// When, s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub peak_torque_time: f64,
     /// Torque at the state before the disturbance, N·m.
+    #[serde(deserialize_with = "crate::number::read")]
     pub static_torque: f64,
     /// Peak torque over static torque; `None` where the shaft was unloaded.
     pub dynamic_factor: Option<f64>,
@@ -120,9 +133,11 @@ pub struct ShockDetails {
     /// Meaning of the history's variables, as a sentence.
     pub variable: String,
     /// Twist of each shaft before the disturbance, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub equilibrium: Named<f64>,
     /// Coefficients of the equation solved, where it is a single one: `omega_0`, `alpha_0`,
     /// `mu`, `gamma`.
+    #[serde(deserialize_with = "crate::number::read")]
     pub coefficients: Named<f64>,
     /// All methods side by side, where that was asked.
     pub comparison: Vec<MethodRow>,

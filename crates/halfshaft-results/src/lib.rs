@@ -8,6 +8,9 @@
 //! - [`CheckResult`], [`StaticResult`], [`ModesResult`], [`HistoryResult`] (simulate and
 //!   shock), [`ResonanceResult`], [`FoldsResult`], [`StudyResult`], [`ReportResult`].
 //! - [`io`]: JSON and CSV files, written under a temporary name and renamed.
+//!
+//! JSON has no NaN and no infinity. Both are written as `null`, and `null` comes back as NaN where
+//! a number must stand and as `None` where none need.
 
 mod answer;
 mod check;
@@ -17,6 +20,7 @@ mod header;
 mod history;
 pub mod io;
 mod modes;
+mod number;
 mod report;
 mod resonance;
 mod special;
@@ -42,7 +46,7 @@ pub use report::{MissingSection, ReportResult};
 pub use resonance::{Branch, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
 pub use special::{SpecialKind, SpecialPoint, Status};
 pub use study::{ComparisonRow, ItemStyle, StudyFigureSpec, StudyItem, StudyResult};
-pub use table::{Column, Table};
+pub use table::{Column, Table, column_names};
 
 /// An ordered map from names to values, written as a JSON object.
 pub type Named<T> = indexmap::IndexMap<String, T>;

@@ -8,20 +8,28 @@ use crate::{Equilibrium, Header, Named};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mode {
     /// Undamped natural frequency, rad/s; exactly 0 for the rigid-body mode.
+    #[serde(deserialize_with = "crate::number::read")]
     pub frequency: f64,
     /// Frequency of the damped oscillation, rad/s; 0 where it does not oscillate.
+    #[serde(deserialize_with = "crate::number::read")]
     pub damped_frequency: f64,
     /// Damping over critical damping.
+    #[serde(deserialize_with = "crate::number::read")]
     pub damping_ratio: f64,
     /// Motion of each node, the largest 1.
+    #[serde(deserialize_with = "crate::number::read")]
     pub shape: Named<f64>,
     /// Twist of each shaft in the same scale, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub twist: Named<f64>,
     /// Share of the strain energy in each shaft; sums to 1, all 0 for the rigid-body mode.
+    #[serde(deserialize_with = "crate::number::read")]
     pub strain_energy: Named<f64>,
     /// Share of the kinetic energy in each inertia; sums to 1.
+    #[serde(deserialize_with = "crate::number::read")]
     pub kinetic_energy: Named<f64>,
     /// The two eigenvalues as (real, imaginary), 1/s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub eigenvalues: [(f64, f64); 2],
     /// What the mode is, in words.
     pub label: String,

@@ -34,22 +34,31 @@ pub struct ModeScaling {
     /// The shaft whose twist beyond equilibrium is `x`.
     pub shaft: String,
     /// Inertia of the mode per unit of `x`, kg·m².
+    #[serde(deserialize_with = "crate::number::read")]
     pub modal_inertia: f64,
     /// Order of the excitation: `omega_1 + sigma = order · frequency`.
+    #[serde(deserialize_with = "crate::number::read")]
     pub order: f64,
     /// Natural frequency, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub omega_1: f64,
     /// Effective cubic coefficient `cubic - 10 quadratic² / (9 omega_1²)`, 1/(rad² s²).
+    #[serde(deserialize_with = "crate::number::read")]
     pub alpha: f64,
     /// Damping coefficient, 1/s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub beta: f64,
     /// Excitation amplitude, rad/s².
+    #[serde(deserialize_with = "crate::number::read")]
     pub f: f64,
     /// `3 alpha / (8 omega_1)`: backbone `sigma = kappa rho²`.
+    #[serde(deserialize_with = "crate::number::read")]
     pub kappa: f64,
     /// Coefficients of `x²` to `x⁷` in the equation before averaging, as `x2` to `x7`.
+    #[serde(deserialize_with = "crate::number::read")]
     pub coefficients: Named<f64>,
     /// Twist of each shaft per unit of `x`.
+    #[serde(deserialize_with = "crate::number::read")]
     pub twist_per_x: Named<f64>,
     /// Smallest `f` at which the response folds, rad/s²; `None` where it never does.
     pub fold_threshold_f: Option<f64>,
@@ -67,10 +76,13 @@ pub struct JumpSpeeds {
     /// Direction of the sweep: `up` or `down`.
     pub sweep: String,
     /// Excitation speed of the jump, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub frequency: f64,
     /// The same in revolutions per minute.
+    #[serde(deserialize_with = "crate::number::read")]
     pub rpm: f64,
     /// Amplitude of `x` before the jump, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub rho_before: f64,
     /// Amplitude of `x` after the jump, rad; `None` where no other response exists.
     pub rho_after: Option<f64>,
@@ -80,22 +92,29 @@ pub struct JumpSpeeds {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VerifiedPoint {
     /// Excitation speed, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub frequency: f64,
     /// Predicted amplitude of the first harmonic of the twist, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub predicted: f64,
     /// The same from a periodic orbit of the full equations, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub integrated: f64,
     /// Half of peak to peak of that orbit, rad.
+    #[serde(deserialize_with = "crate::number::read")]
     pub integrated_amplitude: f64,
     /// Predicted over integrated, less 1.
+    #[serde(deserialize_with = "crate::number::read")]
     pub relative_difference: f64,
     /// Whether the prediction says stable.
     pub predicted_stable: bool,
     /// Whether all Floquet multipliers of the orbit lie inside the unit circle.
     pub integrated_stable: bool,
     /// Largest modulus of the Floquet multipliers.
+    #[serde(deserialize_with = "crate::number::read")]
     pub largest_multiplier: f64,
     /// Largest change of the state over one period of the orbit, relative.
+    #[serde(deserialize_with = "crate::number::read")]
     pub orbit_residual: f64,
 }
 
@@ -110,6 +129,7 @@ pub struct ResonanceResult {
     /// How the line was scaled to the oscillator, once for each exciting order.
     pub scaling: Vec<ModeScaling>,
     /// The largest response of each exciting order: `frequency`, `sigma`, `rho` and channels.
+    #[serde(deserialize_with = "crate::number::read")]
     pub peaks: Vec<Named<f64>>,
     /// Backbone of each exciting order: `frequency`, `sigma`, `rho` and channels.
     pub backbones: Vec<Table>,

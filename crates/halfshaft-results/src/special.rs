@@ -34,7 +34,7 @@ pub struct SpecialPoint {
     /// How surely it is known.
     pub status: Status,
     /// Values by column name, `frequency` (rad/s) first.
-    #[serde(flatten)]
+    #[serde(flatten, deserialize_with = "crate::number::read")]
     pub values: Named<f64>,
 }
 

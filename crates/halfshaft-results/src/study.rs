@@ -46,8 +46,10 @@ pub struct StudyFigureSpec {
     /// Column on the vertical axis.
     pub y: String,
     /// Range of the horizontal axis.
+    #[serde(deserialize_with = "crate::number::read")]
     pub x_range: Option<(f64, f64)>,
     /// Range of the vertical axis.
+    #[serde(deserialize_with = "crate::number::read")]
     pub y_range: Option<(f64, f64)>,
 }
 

@@ -1,6 +1,8 @@
 //! Named columns with units.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::{HashMap, HashSet};
+
+use serde::{Deserialize, Serialize, Serializer};
 
 /// One column of numbers. A missing value is NaN in memory and `null` in JSON.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -10,7 +12,7 @@ pub struct Column {
     /// Symbol of the unit, `1` for pure numbers.
     pub unit: String,
     /// One number a row.
-    #[serde(serialize_with = "write_values", deserialize_with = "read_values")]
+    #[serde(serialize_with = "write_values", deserialize_with = "crate::number::read")]
     pub values: Vec<f64>,
 }
 
@@ -60,6 +62,16 @@ impl Table {
         self.column(name).map_or(&[], |column| &column.values)
     }
 
+    /// Values of the columns of those names, in their order; empty where there is none. Finds many
+    /// columns at once faster than one by one.
+    pub fn values_of<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Vec<&[f64]> {
+        let mut known: HashMap<&str, &[f64]> = HashMap::new();
+        for column in &self.columns {
+            known.entry(&column.name).or_insert(&column.values);
+        }
+        names.into_iter().map(|name| known.get(name).copied().unwrap_or_default()).collect()
+    }
+
     /// Linear interpolation of a column over the first column, which must ascend.
     ///
     /// `None` outside the first column's range or where the column is missing. Where `x`
@@ -81,14 +93,19 @@ impl Table {
     }
 }
 
+/// Names and units of all columns of some tables, each name once and in the order of the tables.
+pub fn column_names<'t>(tables: impl IntoIterator<Item = &'t Table>) -> Vec<(String, String)> {
+    let mut known = HashSet::new();
+    let columns = tables.into_iter().flat_map(|table| &table.columns);
+    columns
+        .filter(|column| known.insert(column.name.as_str()))
+        .map(|column| (column.name.clone(), column.unit.clone()))
+        .collect()
+}
+
 fn write_values<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
     // JSON has no NaN; a missing value becomes null.
     serializer.collect_seq(values.iter().map(|value| value.is_finite().then_some(*value)))
-}
-
-fn read_values<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
-    let values = Vec::<Option<f64>>::deserialize(deserializer)?;
-    Ok(values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
 }
 
 #[cfg(test)]

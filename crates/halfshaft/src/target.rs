@@ -90,7 +90,8 @@ impl OutputError {
 /// Where answers go.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// One form into one file (and numbered neighbours where there are several figures).
+    /// One form into one file; where there are several figures, those after the first beside it,
+    /// under its name and their own.
     File(PathBuf, Format),
     /// All forms into a folder.
     Folder(PathBuf),

@@ -1,10 +1,18 @@
 //! Whether gears and shafts join the nodes to one line that can turn.
 
+use std::collections::HashMap;
+use std::ops::Range;
+
 use super::Driveline;
 use super::network::Network;
 use super::places::Places;
 use super::topology::{Topology, TopologyError};
 use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean, nearest};
+use crate::elements::Gear;
+
+/// For how many findings is looked for what was meant: each look goes through all names, and who
+/// has more mistakes of that kind has understood by then.
+const MOST_LOOKS: usize = 20;
 
 /// Adds what is wrong with nodes, gear loops and connections to `found`.
 pub(super) fn check_connection(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
@@ -17,7 +25,11 @@ pub(super) fn check_connection(line: &Driveline, places: &Places<'_>, found: &mu
     // A gear from a node to itself has been told as that.
     contradictions.retain(|TopologyError::GearLoop { input, output, .. }| input != output);
     if ratios_known {
-        found.items.extend(contradictions.iter().map(|error| gear_loop(error, line, places)));
+        let loops = contradictions.iter().enumerate();
+        found.items.extend(loops.map(|(number, error)| {
+            let related = if number < MOST_LOOKS { line.gears.as_slice() } else { &[] };
+            gear_loop(error, related, places)
+        }));
         check_shafts_turn(line, &topology, places, found);
     }
     check_torque_nodes(line, &topology, places, found);
@@ -34,11 +46,12 @@ pub(super) fn check_connection(line: &Driveline, places: &Places<'_>, found: &mu
     }
 }
 
-fn gear_loop(error: &TopologyError, line: &Driveline, places: &Places<'_>) -> Diagnostic {
+/// A gear that contradicts those before it, with the places of those before it among `gears`.
+fn gear_loop(error: &TopologyError, gears: &[Gear], places: &Places<'_>) -> Diagnostic {
     let TopologyError::GearLoop { index, asked, given, .. } = error;
     let diagnostic = Diagnostic::error(places.key("gear", *index, "ratio"), error.to_string())
         .hint(format!("the loop turns with ratio = {given}; {asked} would lock it"));
-    let before = line.gears.iter().enumerate().take(*index);
+    let before = gears.iter().enumerate().take(*index);
     before.fold(diagnostic, |diagnostic, (other, gear)| {
         let label = format!("ratio of \"{}\"", gear.name);
         diagnostic.related(places.key("gear", other, "ratio"), label)
@@ -59,10 +72,11 @@ fn check_torque_nodes(
     places: &Places<'_>,
     found: &mut Diagnostics,
 ) {
+    let mut looks = 0..MOST_LOOKS;
     for (index, torque) in line.torques.iter().enumerate() {
         if topology.node(&torque.on).is_none() && places.has("torque", index, "on") {
             let message = format!("no node is named \"{}\"", torque.on);
-            let hint = did_you_mean(&torque.on, anchored(line));
+            let hint = looks.next().and_then(|_| did_you_mean(&torque.on, anchored(line)));
             let span = places.key("torque", index, "on");
             found.push(Diagnostic::error(span, message).maybe_hint(hint));
         }
@@ -83,7 +97,9 @@ fn check_masses<'l>(
     found: &mut Diagnostics,
 ) -> Vec<Massless<'l>> {
     let mut massless = Vec::new();
-    for group in &topology.groups {
+    let mut looks = 0..MOST_LOOKS;
+    let mentions = first_mentions(line, places);
+    for (number, group) in topology.groups.iter().enumerate() {
         if group.nodes.iter().any(|node| topology.nodes[*node].inertia.is_some()) {
             continue;
         }
@@ -91,8 +107,9 @@ fn check_masses<'l>(
             group.nodes.iter().map(|node| topology.nodes[*node].name.as_str()).collect();
         // Any node of the group may be the misspelt one that should have brought an inertia.
         let misspelt = names.iter().find_map(|name| {
-            let others = anchored(line).filter(|other| !names.contains(other));
-            Some((*name, nearest(name, others)?))
+            looks.next()?;
+            let elsewhere = |other: &&str| topology.place(other).is_some_and(|(g, _)| g != number);
+            Some((*name, nearest(name, anchored(line).filter(elsewhere))?))
         });
         let name = misspelt.map_or(topology.nodes[group.reference].name.as_str(), |(n, _)| n);
         let meant = misspelt.map(|(_, meant)| meant);
@@ -101,7 +118,7 @@ fn check_masses<'l>(
             |meant| format!("did you mean \"{meant}\"?"),
         );
         let message = format!("the node \"{name}\" has no inertia");
-        found.push(Diagnostic::error(first_mention(line, places, name), message).hint(hint));
+        found.push(Diagnostic::error(mention(&mentions, places, name), message).hint(hint));
         massless.push(Massless { name, meant });
     }
     massless
@@ -110,35 +127,44 @@ fn check_masses<'l>(
 /// The line with misspelt nodes put right, so that what they leave hanging is not told as a
 /// mistake of its own; `None` where what was meant is not known.
 fn as_meant(line: &Driveline, massless: &[Massless<'_>]) -> Option<Driveline> {
+    let others = massless.iter().map(|massless| Some((massless.name, massless.meant?)));
+    let others: HashMap<&str, &str> = others.collect::<Option<_>>()?;
     let mut meant = line.clone();
-    for Massless { name, meant: other } in massless {
-        let other = (*other)?;
-        let gears = meant.gears.iter_mut().flat_map(|gear| [&mut gear.input, &mut gear.output]);
-        let shafts = meant.shafts.iter_mut().flat_map(|shaft| [&mut shaft.from, &mut shaft.to]);
-        for node in gears.chain(shafts).filter(|node| node.as_str() == *name) {
-            other.clone_into(node);
+    let gears = meant.gears.iter_mut().flat_map(|gear| [&mut gear.input, &mut gear.output]);
+    let shafts = meant.shafts.iter_mut().flat_map(|shaft| [&mut shaft.from, &mut shaft.to]);
+    for node in gears.chain(shafts) {
+        if let Some(other) = others.get(node.as_str()) {
+            (*other).clone_into(node);
         }
     }
     Some(meant)
 }
 
-/// Where a node that is no inertia is first named.
-fn first_mention(line: &Driveline, places: &Places<'_>, node: &str) -> std::ops::Range<usize> {
+/// Where gears and shafts first name each node; a shaft's word is the place to mend, where there is
+/// one.
+fn first_mentions<'l>(line: &'l Driveline, places: &Places<'_>) -> HashMap<&'l str, Range<usize>> {
+    let mut mentions = HashMap::new();
+    let mut mention = |name: &'l str, list: &str, index: usize, key: &str| {
+        mentions.entry(name).or_insert_with(|| places.key(list, index, key));
+    };
     for (index, shaft) in line.shafts.iter().enumerate() {
-        for (key, name) in [("from", &shaft.from), ("to", &shaft.to)] {
-            if name == node {
-                return places.key("shaft", index, key);
-            }
-        }
+        mention(&shaft.from, "shaft", index, "from");
+        mention(&shaft.to, "shaft", index, "to");
     }
     for (index, gear) in line.gears.iter().enumerate() {
-        for (key, name) in [("input", &gear.input), ("output", &gear.output)] {
-            if name == node {
-                return places.key("gear", index, key);
-            }
-        }
+        mention(&gear.input, "gear", index, "input");
+        mention(&gear.output, "gear", index, "output");
     }
-    places.key("inertia", 0, "name")
+    mentions
+}
+
+/// Where a node that is no inertia is first named.
+fn mention(
+    mentions: &HashMap<&str, Range<usize>>,
+    places: &Places<'_>,
+    node: &str,
+) -> Range<usize> {
+    mentions.get(node).cloned().unwrap_or_else(|| places.key("inertia", 0, "name"))
 }
 
 /// A shaft between nodes that turn rigidly together either does nothing or locks the line.
@@ -182,7 +208,10 @@ fn check_connected(
     };
     let inertia = topology.groups[*first].nodes.iter().find_map(|n| topology.nodes[*n].inertia);
     let span = inertia.map_or_else(
-        || first_mention(line, places, &topology.nodes[topology.groups[*first].reference].name),
+        || {
+            let node = &topology.nodes[topology.groups[*first].reference];
+            mention(&first_mentions(line, places), places, &node.name)
+        },
         |inertia| places.key("inertia", inertia, "name"),
     );
     found.push(
@@ -199,29 +228,10 @@ fn check_can_turn(
     places: &Places<'_>,
     found: &mut Diagnostics,
 ) {
-    if network.grounded {
-        return;
-    }
-    let speeds = network.rigid_speeds(topology.groups.len());
-    for index in &network.loops {
-        let [Some((from, from_ratio)), Some((to, to_ratio))] = network.ends[*index] else {
-            continue;
-        };
-        let (from_speed, to_speed) = (speeds[from] * from_ratio, speeds[to] * to_ratio);
-        if (from_speed - to_speed).abs() <= 1e-9 * from_speed.abs() {
-            continue;
-        }
-        let shaft = &line.shafts[*index];
-        let message = format!(
-            "the loop that shaft \"{}\" closes cannot turn: \"{}\" would turn at {:.6} times the \
-             speed of \"{}\"",
-            shaft.name,
-            shaft.from,
-            from_speed / to_speed,
-            shaft.to
-        );
+    for locked in network.locked_loops(line, topology.groups.len()) {
+        let place = places.key("shaft", locked.index, "name");
         found.push(
-            Diagnostic::error(places.key("shaft", *index, "name"), message)
+            Diagnostic::error(place, locked.to_string())
                 .hint("make the gear ratios on both paths of the loop agree"),
         );
     }

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::elements::{Gear, Inertia, Shaft, Torque};
 use crate::parameter::{AddressError, Parameter, resolve};
 
-pub use network::{End, Network, TreeShaft};
+pub use network::{End, LockedLoop, Network, TreeShaft};
 pub(crate) use places::Places;
 pub use topology::{Group, Node, Topology, TopologyError};
 pub(crate) use validate::validate;
@@ -60,6 +60,16 @@ pub enum ChangeError {
         value: f64,
         /// What contradicts.
         reason: Box<TopologyError>,
+    },
+    /// With this value a loop of shafts cannot turn.
+    #[error("with {address} = {value}: {reason}")]
+    Loop {
+        /// The parameter.
+        address: String,
+        /// The value in SI.
+        value: f64,
+        /// The loop.
+        reason: Box<LockedLoop>,
     },
 }
 
@@ -128,13 +138,27 @@ impl Driveline {
             return Err(ChangeError::NoPlace { address: parameter.address.clone() });
         }
         if parameter.changes_gears() {
-            Topology::of(&line).map_err(|reason| ChangeError::Gears {
-                address: parameter.address.clone(),
-                value,
-                reason: Box::new(reason),
-            })?;
+            line.check_turning(parameter, value)?;
         }
         Ok(line)
+    }
+
+    /// Whether the gears still agree, among themselves and around loops of shafts; `value` is what
+    /// the parameter has been set to.
+    fn check_turning(&self, parameter: &Parameter, value: f64) -> Result<(), ChangeError> {
+        let address = || parameter.address.clone();
+        let topology = Topology::of(self).map_err(|reason| ChangeError::Gears {
+            address: address(),
+            value,
+            reason: Box::new(reason),
+        })?;
+        let network = Network::of(self, &topology);
+        match network.locked_loops(self, topology.groups.len()).into_iter().next() {
+            Some(locked) => {
+                Err(ChangeError::Loop { address: address(), value, reason: Box::new(locked) })
+            }
+            None => Ok(()),
+        }
     }
 
     /// SHA-256 over every value of the line in SI, as hexadecimal text: two files that say

@@ -68,7 +68,57 @@ impl Network {
         }
         speeds
     }
+
+    /// The loops of shafts that keep a free line from turning without twisting any shaft; a line
+    /// that is held at ground need not turn.
+    pub(crate) fn locked_loops(&self, line: &Driveline, groups: usize) -> Vec<LockedLoop> {
+        if self.grounded || self.loops.is_empty() {
+            return Vec::new();
+        }
+        let speeds = self.rigid_speeds(groups);
+        let locked = self.loops.iter().filter_map(|index| {
+            let [Some((from, from_ratio)), Some((to, to_ratio))] = self.ends[*index] else {
+                return None;
+            };
+            let (from_speed, to_speed) = (speeds[from] * from_ratio, speeds[to] * to_ratio);
+            if (from_speed - to_speed).abs() <= SPEED_TOLERANCE * from_speed.abs() {
+                return None;
+            }
+            let shaft = &line.shafts[*index];
+            Some(LockedLoop {
+                shaft: shaft.name.clone(),
+                index: *index,
+                from: shaft.from.clone(),
+                to: shaft.to.clone(),
+                times: from_speed / to_speed,
+            })
+        });
+        locked.collect()
+    }
 }
+
+/// A loop of shafts between gears that only turns by winding up.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the loop that shaft \"{shaft}\" closes cannot turn: \"{from}\" would turn at {times:.6} times \
+     the speed of \"{to}\""
+)]
+pub struct LockedLoop {
+    /// The shaft that closes the loop.
+    pub shaft: String,
+    /// Its index.
+    pub index: usize,
+    /// Its `from` node.
+    pub from: String,
+    /// Its `to` node.
+    pub to: String,
+    /// Speed that the rest of the loop gives the `from` node over that of the `to` node.
+    pub times: f64,
+}
+
+/// Two speeds around a loop of shafts agree when they differ by less than this part; tooth counts
+/// rounded to ten digits still pass.
+const SPEED_TOLERANCE: f64 = 1e-9;
 
 /// Breadth-first search over groups; ground is the node after the last group.
 struct Search<'e> {

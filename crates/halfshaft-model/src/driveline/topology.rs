@@ -87,11 +87,14 @@ impl Topology {
         let by_name = sorted(&names);
         let find = |name: &str| position(&by_name, |node| names[node], name);
         let mut sets = RatioSets::new(names.len());
+        let mut roles = vec![Role::default(); names.len()];
         let mut contradictions = Vec::new();
         for (index, gear) in line.gears.iter().enumerate() {
             let (Some(input), Some(output)) = (find(&gear.input), find(&gear.output)) else {
                 continue; // cannot be: the ends of gears are among the names
             };
+            roles[input].is_input = true;
+            roles[output].is_output = true;
             if let Err(given) = sets.join(input, output, gear.ratio) {
                 contradictions.push(TopologyError::GearLoop {
                     gear: gear.name.clone(),
@@ -105,12 +108,12 @@ impl Topology {
         }
         let inertias = nodes.iter().map(|(position, _)| *position);
         let inertias = inertias.map(|p| Some(p).filter(|p| *p < line.inertias.len())).collect();
-        (Self::assemble(line, &names, inertias, by_name, &mut sets), contradictions)
+        (Self::assemble(&names, &roles, inertias, by_name, &mut sets), contradictions)
     }
 
     fn assemble(
-        line: &Driveline,
         names: &[&str],
+        roles: &[Role],
         inertias: Vec<Option<usize>>,
         by_name: Vec<usize>,
         sets: &mut RatioSets,
@@ -126,7 +129,7 @@ impl Topology {
             groups[group_of_root[*root]].nodes.push(node);
         }
         for group in &mut groups {
-            group.reference = reference_of(line, names, &group.nodes);
+            group.reference = reference_of(roles, &group.nodes);
         }
         let nodes = names
             .iter()
@@ -183,13 +186,16 @@ fn position<'n>(
     by_name.binary_search_by(|entry| name_of(*entry).cmp(name)).ok().map(|at| by_name[at])
 }
 
+/// What gears make of a node.
+#[derive(Clone, Copy, Debug, Default)]
+struct Role {
+    is_input: bool,
+    is_output: bool,
+}
+
 /// The node that stands for its group: an output that is no input, else the first.
-fn reference_of(line: &Driveline, names: &[&str], nodes: &[usize]) -> usize {
-    let last = nodes.iter().rev().find(|node| {
-        let name = names[**node];
-        let is_output = line.gears.iter().any(|gear| gear.output == name);
-        is_output && !line.gears.iter().any(|gear| gear.input == name)
-    });
+fn reference_of(roles: &[Role], nodes: &[usize]) -> usize {
+    let last = nodes.iter().rev().find(|node| roles[**node].is_output && !roles[**node].is_input);
     last.or(nodes.first()).copied().unwrap_or(0)
 }
 

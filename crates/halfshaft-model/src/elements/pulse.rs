@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
+use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec, words};
 use crate::units::{QuantityKind, Sign};
 
 /// How a pulse runs over time, with `u = (t - start) / duration` and `p` the peak.
@@ -19,6 +19,35 @@ pub enum PulseShape {
     Ramp,
     /// All at once: an angular impulse at the start.
     Impulse,
+}
+
+impl PulseShape {
+    /// All shapes with their names.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("half-sine", Self::HalfSine),
+        ("rectangle", Self::Rectangle),
+        ("ramp", Self::Ramp),
+        ("impulse", Self::Impulse),
+    ];
+
+    /// Name of the shape.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, shape)| *shape == self).map_or("", |(name, _)| name)
+    }
+
+    /// The shape of that name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(known, _)| *known == name).map(|(_, shape)| shape)
+    }
+
+    /// Keys that the shape needs and that it cannot use.
+    pub(crate) fn needs(self) -> (&'static [&'static str], &'static [&'static str]) {
+        if self == Self::Impulse {
+            (&["impulse"], &["peak", "duration"])
+        } else {
+            (&["peak", "duration"], &["impulse"])
+        }
+    }
 }
 
 /// A torque pulse.
@@ -36,7 +65,7 @@ pub struct Pulse {
     pub duration_s: f64,
 }
 
-const SHAPES: &[&str] = &["half-sine", "rectangle", "ramp", "impulse"];
+const SHAPES: [&str; PulseShape::ALL.len()] = words(&PulseShape::ALL);
 
 /// Keys of `pulse = { ... }`.
 pub static PULSE: TableSpec = TableSpec {
@@ -45,7 +74,7 @@ pub static PULSE: TableSpec = TableSpec {
           then the peak ever after; with u = (time - start) / duration. impulse: all at once. Its \
           numbers have the addresses `<name of the torque>.pulse.peak` and so on.",
     keys: &[
-        KeySpec::new("shape", ValueSpec::Choice(SHAPES), "How it runs over time.").required(),
+        KeySpec::new("shape", ValueSpec::Choice(&SHAPES), "How it runs over time.").required(),
         KeySpec::new(
             "peak",
             ValueSpec::Quantity(QuantityKind::Torque, Sign::Any),
@@ -70,22 +99,9 @@ pub static PULSE: TableSpec = TableSpec {
 };
 
 impl Pulse {
-    /// Keys that the shape needs and that it cannot use.
-    pub(crate) fn needs(shape: &str) -> (&'static [&'static str], &'static [&'static str]) {
-        if shape == "impulse" {
-            (&["impulse"], &["peak", "duration"])
-        } else {
-            (&["peak", "duration"], &["impulse"])
-        }
-    }
-
     pub(crate) fn read(table: &CheckedTable) -> Self {
-        let shape = match table.word("shape") {
-            Some("rectangle") => PulseShape::Rectangle,
-            Some("ramp") => PulseShape::Ramp,
-            Some("impulse") => PulseShape::Impulse,
-            _ => PulseShape::HalfSine,
-        };
+        // An unknown shape is an error of its own; meanwhile any shape stands in.
+        let shape = table.word("shape").and_then(PulseShape::named).unwrap_or(PulseShape::HalfSine);
         let impulse = shape == PulseShape::Impulse;
         let of = |key, has: bool| if has { table.number_or_stand_in(key) } else { 0.0 };
         Self {
@@ -94,18 +110,6 @@ impl Pulse {
             impulse_nm_s: of("impulse", impulse),
             start_s: table.number_or("start", 0.0),
             duration_s: of("duration", !impulse),
-        }
-    }
-
-    /// Torque at time `t`, N·m. An impulse has none: it changes the speed at its start.
-    pub fn torque(&self, t: f64) -> f64 {
-        let u = (t - self.start_s) / self.duration_s;
-        match self.shape {
-            PulseShape::Impulse => 0.0,
-            PulseShape::HalfSine if u > 0.0 && u < 1.0 => self.peak_nm * (PI * u).sin(),
-            PulseShape::Rectangle if u > 0.0 && u < 1.0 => self.peak_nm,
-            PulseShape::Ramp if u > 0.0 => self.peak_nm * u.min(1.0),
-            _ => 0.0,
         }
     }
 
@@ -146,19 +150,32 @@ impl Pulse {
 mod tests {
     use super::*;
 
-    // Source: the integral by Simpson's rule on a fine grid against the closed form.
+    // Source: the shapes as the file format describes them, summed up by the midpoint rule.
     #[test]
     fn the_angular_impulse_is_the_integral_of_the_torque() {
-        for shape in [PulseShape::HalfSine, PulseShape::Rectangle, PulseShape::Ramp] {
+        for (_, shape) in PulseShape::ALL {
+            let law = |u: f64| match shape {
+                PulseShape::HalfSine => (PI * u).sin(),
+                PulseShape::Rectangle => 1.0,
+                PulseShape::Ramp => u,
+                PulseShape::Impulse => 0.0,
+            };
             let pulse =
                 Pulse { shape, peak_nm: -500.0, impulse_nm_s: 0.0, start_s: 0.1, duration_s: 0.02 };
             let n = 2000;
-            let h = pulse.duration_s / f64::from(n);
-            let sum: f64 =
-                (0..n).map(|i| pulse.torque(pulse.start_s + (f64::from(i) + 0.5) * h) * h).sum();
-            assert!((sum - pulse.angular_impulse()).abs() < 1e-6 * sum.abs(), "{shape:?}");
-            assert_eq!(pulse.torque(0.0), 0.0);
-            assert_eq!(pulse.torque(1.0), pulse.final_torque());
+            let mean: f64 =
+                (0..n).map(|i| law((f64::from(i) + 0.5) / f64::from(n)) / f64::from(n)).sum();
+            let sum = pulse.peak_nm * mean * pulse.duration_s;
+            assert!((sum - pulse.angular_impulse()).abs() <= 1e-6 * sum.abs(), "{shape:?}");
+        }
+    }
+
+    // Source: the names that serde gives the shapes, from which the digest is made.
+    #[test]
+    fn the_names_of_the_shapes_are_those_in_files() {
+        for (name, shape) in PulseShape::ALL {
+            assert_eq!(serde_json::to_value(shape).expect("plain data"), name);
+            assert_eq!((PulseShape::named(name), shape.name()), (Some(shape), name));
         }
     }
 }

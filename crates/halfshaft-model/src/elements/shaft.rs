@@ -120,11 +120,6 @@ impl Shaft {
         ]
     }
 
-    /// Whether the law has a term beyond the linear one.
-    pub fn is_nonlinear(&self) -> bool {
-        self.polynomial()[2..].iter().any(|coefficient| *coefficient != 0.0)
-    }
-
     /// The numeric value behind a key of this element.
     pub fn parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
         match key {

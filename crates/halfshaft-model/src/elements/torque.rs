@@ -147,12 +147,6 @@ impl Torque {
         if let Some(key) = key.strip_prefix("pulse.") {
             return self.pulse.as_mut()?.parameter_mut(key);
         }
-        if let Some(rest) = key.strip_prefix("harmonics.") {
-            let (index, key) = rest.split_once('.')?;
-            // Entry 0 is the main harmonic, so the first further one is number 1.
-            let index: usize = index.parse().ok().filter(|index| *index > 0)?;
-            return self.harmonics.get_mut(index)?.parameter_mut(key);
-        }
         match key {
             "mean" => {
                 if self.mean == MeanTorque::Balance {
@@ -164,7 +158,26 @@ impl Torque {
                 }
             }
             "frequency" => Some(self.frequency_rad_s.get_or_insert(0.0)),
-            _ => self.harmonics.first_mut()?.parameter_mut(key),
+            _ => {
+                let (index, key) = harmonic_key(key)?;
+                self.harmonics.get_mut(index)?.parameter_mut(key)
+            }
         }
     }
+
+    /// The harmonic that a key of this element belongs to, and its key within that.
+    pub(crate) fn harmonic<'k>(&self, key: &'k str) -> Option<(&Harmonic, &'k str)> {
+        let (index, key) = harmonic_key(key)?;
+        let known = HARMONIC.key(key).is_some();
+        self.harmonics.get(index).filter(|_| known).map(|harmonic| (harmonic, key))
+    }
+}
+
+/// Which harmonic a key of a torque belongs to, and the key within that.
+fn harmonic_key(key: &str) -> Option<(usize, &str)> {
+    let Some(rest) = key.strip_prefix("harmonics.") else { return Some((0, key)) };
+    let (index, key) = rest.split_once('.')?;
+    // Entry 0 is the main harmonic, so the first further one is number 1.
+    let index: usize = index.parse().ok().filter(|index| *index > 0)?;
+    Some((index, key))
 }

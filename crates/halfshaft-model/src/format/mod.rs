@@ -18,4 +18,5 @@ pub use model_file::{MODEL, SetFlag, read_model};
 pub(crate) use reader::read_document;
 pub use reference::reference_page;
 pub use schema::json_schema;
+pub(crate) use spec::words;
 pub use spec::{KeySpec, TableSpec, ValueSpec};

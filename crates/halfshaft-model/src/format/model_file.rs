@@ -2,7 +2,9 @@
 
 use crate::diagnostic::{Diagnostic, Diagnostics, Source, with_article};
 use crate::driveline::{Driveline, Places, validate};
-use crate::elements::{GEAR, Gear, INERTIA, Inertia, PULSE, Pulse, SHAFT, Shaft, TORQUE, Torque};
+use crate::elements::{
+    GEAR, Gear, INERTIA, Inertia, PULSE, PulseShape, SHAFT, Shaft, TORQUE, Torque,
+};
 use crate::format::checked::CheckedTable;
 use crate::format::reader::read_document;
 use crate::format::spec::{KeySpec, TableSpec, ValueSpec};
@@ -80,13 +82,14 @@ fn build(document: &CheckedTable) -> (Driveline, Places<'_>) {
 
 /// A pulse needs other keys for each shape, which the list of keys cannot say.
 fn check_pulse(torque: &CheckedTable, found: &mut Diagnostics) {
-    let Some((pulse, shape)) =
-        torque.table("pulse").and_then(|pulse| Some((pulse, pulse.word("shape")?)))
+    let Some((pulse, shape)) = torque
+        .table("pulse")
+        .and_then(|pulse| Some((pulse, PulseShape::named(pulse.word("shape")?)?)))
     else {
         return;
     };
-    let (needed, useless) = Pulse::needs(shape);
-    let what = format!("{} pulse", with_article(shape));
+    let (needed, useless) = shape.needs();
+    let what = format!("{} pulse", with_article(shape.name()));
     for key in needed.iter().filter(|key| !pulse.mentions(key)) {
         let unit =
             PULSE.key(key).and_then(KeySpec::quantity).map_or("", |(kind, _)| kind.si_unit());

@@ -214,7 +214,7 @@ fn quantity(
 ) -> Option<f64> {
     let si = match value.get_ref() {
         DeValue::String(text) => match parse_quantity(text, kind) {
-            Ok(quantity) => quantity.si,
+            Ok(si) => si,
             Err(error) => {
                 found.push(
                     Diagnostic::error(value.span(), format!("{key}: {error}"))

@@ -37,6 +37,19 @@ pub enum ValueSpec {
     Tables(&'static TableSpec),
 }
 
+/// The words of some choices, for [`ValueSpec::Choice`].
+pub(crate) const fn words<T: Copy, const N: usize>(
+    choices: &[(&'static str, T); N],
+) -> [&'static str; N] {
+    let mut words = [""; N];
+    let mut at = 0;
+    while at < N {
+        words[at] = choices[at].0;
+        at += 1;
+    }
+    words
+}
+
 /// One key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct KeySpec {

@@ -62,6 +62,21 @@ pub enum Question {
     Folds(FoldsQuestion),
 }
 
+impl Question {
+    /// What is asked, in one word.
+    pub fn verb(&self) -> Verb {
+        match self {
+            Self::Check => Verb::Check,
+            Self::Static => Verb::Static,
+            Self::Modes(_) => Verb::Modes,
+            Self::Simulate(_) => Verb::Simulate,
+            Self::Shock(_) => Verb::Shock,
+            Self::Resonance(_) => Verb::Resonance,
+            Self::Folds(_) => Verb::Folds,
+        }
+    }
+}
+
 /// Settings of `modes`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ModesQuestion {

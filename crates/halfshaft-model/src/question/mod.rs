@@ -1,9 +1,10 @@
 //! Questions as data: what can be asked of a line, whoever asks.
 //!
-//! The command line, study files and other faces fill in [`QuestionText`]; [`read`] turns it
+//! The command line, study files and other faces fill in [`QuestionText`]; [`read()`] turns it
 //! into a [`Question`] in SI or into every mistake at once. The analyses take it from there.
 
 mod channel;
+mod fold_axis;
 mod kinds;
 mod read;
 mod text;

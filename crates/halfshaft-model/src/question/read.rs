@@ -1,14 +1,12 @@
 //! From the words of a question to the question.
 
 use super::kinds::{
-    FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceQuestion, ShockEquation,
-    ShockMethod, ShockQuestion, SimulateQuestion, Verb,
+    FoldsQuestion, ModesQuestion, Question, ResonanceQuestion, ShockEquation, ShockMethod,
+    ShockQuestion, SimulateQuestion, Verb,
 };
 use super::text::{OptionError, QuestionText};
 use super::values::Reader;
 use crate::driveline::Driveline;
-use crate::parameter::AddressError;
-use crate::range::parse_range;
 use crate::units::{QuantityKind, Sign};
 
 /// Reads a question about `line`.
@@ -143,85 +141,7 @@ impl Reader<'_> {
         let mode = self.count("mode", text.mode.as_deref(), 1, 10_000).unwrap_or(1);
         let order = self.excitation_order();
         let points = self.count("points", text.points.as_deref(), 8, 1_000_000).unwrap_or(200);
-        let parameter = self.parameter()?;
+        let parameter = self.parameter(order)?;
         Some(FoldsQuestion { frequency, parameter, method, mode, order, points })
     }
-
-    /// The parameter axis; errors are noted and give `None`.
-    fn parameter(&mut self) -> Option<ParameterRange> {
-        let example = "e.g. --parameter \"half-shaft.cubic=-700..0\"";
-        let Some(text) = self.text.parameter.as_deref() else {
-            let message = "which parameter, and from where to where?";
-            self.errors.push(OptionError::new("parameter", "", message, example));
-            return None;
-        };
-        // Names may hold "=", values never do.
-        let Some((address, range)) = text.rsplit_once('=') else {
-            let message = "a parameter range is ADDRESS=A..B";
-            self.errors.push(OptionError::new("parameter", text, message, example));
-            return None;
-        };
-        match self.parameter_range(address.trim(), range) {
-            Ok(range) => Some(range),
-            Err((message, hint)) => {
-                self.errors.push(OptionError::new("parameter", text, message, hint));
-                None
-            }
-        }
-    }
-
-    /// A range of legal values of an address, or what is wrong and a hint.
-    fn parameter_range(
-        &self,
-        address: &str,
-        range: &str,
-    ) -> Result<ParameterRange, (String, String)> {
-        let plain = |message: String| (message, String::new());
-        let coefficient = mode_coefficient(address, self.line)?;
-        let parameter = match coefficient {
-            Some(_) => None,
-            None => Some(self.line.parameter(address).map_err(|error| {
-                let hint = format!("{}, or {COEFFICIENTS}", error.hint(self.line));
-                let elsewhere = matches!(error, AddressError::NoElement { .. });
-                let hint = if elsewhere { hint } else { error.hint(self.line) };
-                (error.to_string(), hint)
-            })?),
-        };
-        let kind = parameter.as_ref().map_or(QuantityKind::Number, |parameter| parameter.kind);
-        let (from, to) = parse_range(range, kind)
-            .map_err(|error| (error.to_string(), error.hint().unwrap_or_default()))?;
-        let sign = coefficient.or(parameter.as_ref().map(|p| p.sign)).unwrap_or(Sign::Any);
-        if !sign.allows_range(from, to) {
-            return Err(plain(format!("\"{address}\" must {}", sign.rule())));
-        }
-        for end in [from, to] {
-            if let Some(Err(error)) = parameter.as_ref().map(|p| self.line.with(p, end)) {
-                return Err(plain(error.to_string()));
-            }
-        }
-        Ok(ParameterRange { address: address.to_owned(), from, to })
-    }
-}
-
-/// The addresses of the mode's coefficients, for messages.
-const COEFFICIENTS: &str =
-    "one of the mode's coefficients mode.alpha, mode.beta, mode.f, mode.omega_1";
-
-/// The signs that a coefficient of the mode may have, by its address; `None` where the address is
-/// none of a mode. Their units mix time and angle in ways that no flag needs, so their values are
-/// bare numbers.
-fn mode_coefficient(address: &str, line: &Driveline) -> Result<Option<Sign>, (String, String)> {
-    let Some(name) = address.strip_prefix("mode.") else { return Ok(None) };
-    let sign = match name {
-        "alpha" => Sign::Any,
-        "beta" | "f" => Sign::NonNegative,
-        "omega_1" => Sign::Positive,
-        // An element may have that name as well.
-        _ if line.element_names().any(|element| element == "mode") => return Ok(None),
-        _ => {
-            let message = format!("the mode has no coefficient \"{name}\"");
-            return Err((message, format!("give {COEFFICIENTS}")));
-        }
-    };
-    Ok(Some(sign))
 }

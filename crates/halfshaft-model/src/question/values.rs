@@ -4,12 +4,15 @@ use super::channel::{InitialValue, parse_initial};
 use super::kinds::{ResonanceMethod, Start};
 use super::text::{OptionError, QuestionText};
 use crate::diagnostic::did_you_mean;
-use crate::driveline::Driveline;
+use crate::driveline::{Driveline, Topology};
 use crate::range::{parse_flag_quantity, parse_range};
 use crate::units::{QuantityKind, Sign};
 
-/// Most samples that one answer may hold: eight columns of them are a gigabyte.
-const MOST_SAMPLES: f64 = 2e7;
+/// Most numbers that one time history may hold: they are more than a gigabyte.
+const MOST_VALUES: f64 = 2e8;
+
+/// Samples of a time history for which nobody gives a step.
+const DEFAULT_SAMPLES: f64 = 2000.0;
 
 /// Reads options about a line and collects what is wrong with them.
 pub(super) struct Reader<'q> {
@@ -90,19 +93,37 @@ impl Reader<'_> {
     /// The output step; `recorded` is `None` where how long it is cannot be told.
     pub(super) fn step(&mut self, recorded: Option<f64>) -> Option<f64> {
         let text = self.text.step.as_deref();
-        let step = self.quantity("step", text, QuantityKind::Time, Sign::Positive)?;
-        let recorded = recorded?;
-        if recorded / step > MOST_SAMPLES {
-            let message = format!("{recorded} s in steps of {step} s are too many samples");
-            let hint = format!("at most {MOST_SAMPLES:.0} samples; take a larger step or --record");
-            self.errors.push(OptionError::new("step", text.unwrap_or(""), message, hint));
+        let step = self.quantity("step", text, QuantityKind::Time, Sign::Positive);
+        if let Some(recorded) = recorded.filter(|_| step.is_some() || text.is_none()) {
+            self.check_step(recorded, step);
         }
-        if step > recorded {
+        step
+    }
+
+    /// Whether the samples are as many as can be held, and more than none.
+    fn check_step(&mut self, recorded: f64, step: Option<f64>) {
+        let mut wrong = |message: String, hint: String| {
+            let text = self.text.step.as_deref().unwrap_or("");
+            self.errors.push(OptionError::new("step", text, message, hint));
+        };
+        let columns = columns_of(self.line);
+        if step.map_or(DEFAULT_SAMPLES, |step| recorded / step) * columns > MOST_VALUES {
+            let steps = step.map_or_else(
+                || format!("{DEFAULT_SAMPLES} samples, which are kept where no step is given,"),
+                |step| format!("{recorded} s in steps of {step} s"),
+            );
+            let least = recorded * columns / MOST_VALUES;
+            let hint = format!(
+                "a history of this line has {columns} columns, so at most {:.0} samples: take a \
+                 step from {least:.1e} s on, or record less",
+                (MOST_VALUES / columns).floor()
+            );
+            wrong(format!("{steps} are too many samples"), hint);
+        }
+        if step.is_some_and(|step| step > recorded) {
             let message = format!("the step is longer than the {recorded} s that are recorded");
-            let hint = "take a smaller step or a longer --duration";
-            self.errors.push(OptionError::new("step", text.unwrap_or(""), message, hint));
+            wrong(message, "take a smaller step or a longer --duration".to_owned());
         }
-        Some(step)
     }
 
     pub(super) fn tolerance(&mut self, default: f64) -> f64 {
@@ -191,4 +212,11 @@ impl Reader<'_> {
         self.errors.push(OptionError::new(option, text, format!("no such {option}"), hint));
         None
     }
+}
+
+/// Columns of a time history of a line: the time, three channels a shaft and two a node.
+#[expect(clippy::cast_precision_loss, reason = "files are too small for so many elements")]
+fn columns_of(line: &Driveline) -> f64 {
+    let (topology, _) = Topology::with_contradictions(line);
+    (1 + 3 * line.shafts().len() + 2 * topology.nodes.len()) as f64
 }

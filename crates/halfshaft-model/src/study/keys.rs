@@ -1,9 +1,10 @@
 //! The keys of a study file.
 
-use crate::format::{KeySpec, TableSpec, ValueSpec};
+use crate::format::{KeySpec, TableSpec, ValueSpec, words};
+use crate::question::Verb;
 use crate::units::{QuantityKind, Sign};
 
-const VERBS: &[&str] = &["check", "static", "modes", "simulate", "shock", "resonance", "folds"];
+const VERBS: [&str; Verb::ALL.len()] = words(&Verb::ALL);
 
 const fn option(name: &'static str, doc: &'static str) -> KeySpec {
     KeySpec::new(name, ValueSpec::Text, doc)
@@ -16,7 +17,7 @@ pub static QUESTION: TableSpec = TableSpec {
     keys: &[
         KeySpec::new("name", ValueSpec::Text, "Name, unique in its figure; also in the legend.")
             .required(),
-        KeySpec::new("ask", ValueSpec::Choice(VERBS), "What is asked.").required(),
+        KeySpec::new("ask", ValueSpec::Choice(&VERBS), "What is asked.").required(),
         option("model", "Model file, relative to the study. Default: the study's."),
         KeySpec::new("set", ValueSpec::Texts, "Settings \"ADDRESS=VALUE\"."),
         KeySpec::new("initial", ValueSpec::Texts, "Initial values \"CHANNEL=VALUE\"."),

@@ -8,10 +8,10 @@ mod keys;
 mod read;
 
 pub use keys::STUDY;
-pub use read::{StudyError, read_study};
+pub use read::{StudyError, read_study, read_study_text};
 
 use crate::driveline::Driveline;
-use crate::question::{Question, Verb};
+use crate::question::Question;
 
 /// A study that has been read and checked, with every question's line.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,8 +33,6 @@ pub struct StudyQuestion {
     pub name: String,
     /// Figure that it belongs to, by index.
     pub figure: Option<usize>,
-    /// What is asked.
-    pub verb: Verb,
     /// The question.
     pub question: Question,
     /// The line it is asked of, with its settings applied.

@@ -1,6 +1,6 @@
 //! From the text of a study to its questions, all errors at once.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use super::keys::STUDY;
@@ -30,16 +30,27 @@ pub enum StudyError {
 /// [`StudyError`] with all mistakes at once.
 pub fn read_study(path: &Path) -> Result<Study, StudyError> {
     let source = read_file(path)?;
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    read_study_text(source, folder).map_err(StudyError::Diagnostics)
+}
+
+/// Reads the text of a study and every model that it names, relative to `folder`.
+///
+/// # Errors
+/// All mistakes at once.
+pub fn read_study_text(source: Source, folder: impl Into<PathBuf>) -> Result<Study, Diagnostics> {
     let mut found = Diagnostics::about(source);
     let text = found.sources[0].text.clone();
     let document = read_document(&text, &STUDY, &mut found);
-    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    let mut reader = Reader { folder, document: &document, found, models: HashMap::new() };
+    let mut reader = Reader {
+        folder: folder.into(),
+        document: &document,
+        found,
+        models: HashMap::new(),
+        adopted: HashSet::new(),
+    };
     let study = reader.study();
-    if reader.found.has_errors() {
-        return Err(StudyError::Diagnostics(reader.found));
-    }
-    Ok(study)
+    if reader.found.has_errors() { Err(reader.found) } else { Ok(study) }
 }
 
 struct Reader<'d> {
@@ -48,6 +59,8 @@ struct Reader<'d> {
     found: Diagnostics,
     /// Texts of the models by name, so that each file is opened once.
     models: HashMap<String, Option<Source>>,
+    /// Findings of models that have been told.
+    adopted: HashSet<Diagnostic>,
 }
 
 impl Reader<'_> {
@@ -130,7 +143,6 @@ impl Reader<'_> {
             Ok(question) => Some(StudyQuestion {
                 name: table.text("name")?.to_owned(),
                 figure,
-                verb,
                 question,
                 line,
                 style: match table.word("style") {
@@ -197,7 +209,7 @@ impl Reader<'_> {
             .collect();
         for mut item in other.items {
             item.source = places.get(item.source).copied().unwrap_or_default();
-            if !self.found.items.contains(&item) {
+            if self.adopted.insert(item.clone()) {
                 self.found.items.push(item);
             }
         }

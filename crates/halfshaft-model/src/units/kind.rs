@@ -17,18 +17,10 @@ pub enum QuantityKind {
     Angle,
     /// Angular speed, rad/s; Hz and rpm count revolutions.
     Speed,
-    /// Angular acceleration, rad/s².
-    Acceleration,
     /// Time, s.
     Time,
     /// Angular impulse, N·m·s.
     Impulse,
-    /// Length, m.
-    Length,
-    /// Shear modulus and other stresses, Pa.
-    Pressure,
-    /// Density, kg/m³.
-    Density,
     /// A pure number such as a ratio or an order.
     Number,
 }
@@ -86,12 +78,8 @@ impl QuantityKind {
             Self::Torque => Dimension::TORQUE,
             Self::Angle => Dimension::ANGLE,
             Self::Speed => Dimension::SPEED,
-            Self::Acceleration => Dimension::new(0, 0, -2, 1),
             Self::Time => Dimension::TIME,
             Self::Impulse => Dimension::new(2, 1, -1, 0),
-            Self::Length => Dimension::LENGTH,
-            Self::Pressure => Dimension::PRESSURE,
-            Self::Density => Dimension::new(-3, 1, 0, 0),
             Self::Number => Dimension::NONE,
         }
     }
@@ -110,12 +98,8 @@ impl QuantityKind {
             Self::Torque => "N·m",
             Self::Angle => "rad",
             Self::Speed => "rad/s",
-            Self::Acceleration => "rad/s²",
             Self::Time => "s",
             Self::Impulse => "N·m·s",
-            Self::Length => "m",
-            Self::Pressure => "Pa",
-            Self::Density => "kg/m³",
             Self::Number => "1",
         }
     }
@@ -130,12 +114,8 @@ impl QuantityKind {
             Self::Torque => "a torque",
             Self::Angle => "an angle",
             Self::Speed => "an angular speed",
-            Self::Acceleration => "an angular acceleration",
             Self::Time => "a time",
             Self::Impulse => "an angular impulse",
-            Self::Length => "a length",
-            Self::Pressure => "a pressure",
-            Self::Density => "a density",
             Self::Number => "a pure number",
         }
     }
@@ -153,12 +133,8 @@ impl QuantityKind {
             Self::Torque => &["N·m", "kN·m", "lbf·ft"],
             Self::Angle => &["rad", "deg", "rev"],
             Self::Speed => &["rad/s", "rpm", "Hz"],
-            Self::Acceleration => &["rad/s²"],
             Self::Time => &["s", "ms"],
             Self::Impulse => &["N·m·s"],
-            Self::Length => &["m", "mm"],
-            Self::Pressure => &["Pa", "GPa"],
-            Self::Density => &["kg/m³", "g/cm³"],
             Self::Number => &["no unit"],
         }
     }

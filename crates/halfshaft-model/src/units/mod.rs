@@ -17,4 +17,4 @@ pub use dimension::Dimension;
 pub use expression::UnitError;
 pub use kind::{QuantityKind, Sign};
 pub(crate) use quantity::unit_of;
-pub use quantity::{Quantity, QuantityError, parse_quantity};
+pub use quantity::{QuantityError, parse_quantity};

@@ -1,6 +1,6 @@
 //! CSV text of an answer's tables.
 
-use crate::{Answer, Column, FoldsResult, Table};
+use crate::{Answer, Column, FoldsResult, Table, column_names};
 
 /// The tables of an answer as one CSV text: a header of `name (unit)`, then the rows. Where
 /// there are several tables, a first column names each. `None` where there is no table.
@@ -10,14 +10,7 @@ pub fn csv(answer: &Answer) -> Option<String> {
         return None;
     }
     let several = tables.len() > 1;
-    let mut names: Vec<(String, String)> = Vec::new();
-    for (_, table) in &tables {
-        for column in &table.columns {
-            if !names.iter().any(|(name, _)| *name == column.name) {
-                names.push((column.name.clone(), column.unit.clone()));
-            }
-        }
-    }
+    let names = column_names(tables.iter().map(|(_, table)| table));
     let mut writer = csv::Writer::from_writer(Vec::new());
     let head = names.iter().map(|(name, unit)| match unit.as_str() {
         "1" | "" => name.clone(),
@@ -63,7 +56,7 @@ fn write_rows(
     names: &[(String, String)],
     title: Option<&str>,
 ) {
-    let columns: Vec<&[f64]> = names.iter().map(|(name, _)| table.values(name)).collect();
+    let columns = table.values_of(names.iter().map(|(name, _)| name.as_str()));
     for row in 0..table.rows() {
         let cells = columns.iter().map(|values| match values.get(row) {
             Some(value) if value.is_finite() => value.to_string(),

@@ -7,11 +7,16 @@ use crate::Answer;
 #[error("this is no result of halfshaft: {0}")]
 pub struct ReadError(#[from] serde_json::Error);
 
+/// Why an answer cannot be written as JSON.
+#[derive(Debug, thiserror::Error)]
+#[error("the result cannot be written as JSON: {0}")]
+pub struct JsonError(#[from] serde_json::Error);
+
 /// The answer as JSON, indented by two spaces where `pretty`.
 ///
 /// # Errors
-/// Only where the writer of the text fails, which memory does not.
-pub fn to_json(answer: &Answer, pretty: bool) -> Result<String, ReadError> {
+/// [`JsonError`] where a value has no form in JSON, which no answer has.
+pub fn to_json(answer: &Answer, pretty: bool) -> Result<String, JsonError> {
     let text =
         if pretty { serde_json::to_string_pretty(answer)? } else { serde_json::to_string(answer)? };
     Ok(text)

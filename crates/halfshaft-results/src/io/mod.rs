@@ -11,4 +11,4 @@ mod json;
 pub use atomic::{WriteError, write_atomically};
 pub use comma::{csv, tables_of};
 pub use comparison::{comparison_csv, comparison_markdown};
-pub use json::{ReadError, from_json, to_json, write_json};
+pub use json::{JsonError, ReadError, from_json, to_json, write_json};
