@@ -1,13 +1,13 @@
 //! The head of every result.
 
+use halfshaft_model::Driveline;
 use halfshaft_model::question::Question;
-use halfshaft_model::{Driveline, question::Verb};
 use halfshaft_results::{Header, ModelIdentity, Termination};
 
 /// The head of an answer to `question` about `line` that was answered in full.
-pub(crate) fn header(line: &Driveline, verb: Verb, question: &Question) -> Header {
+pub(crate) fn header(line: &Driveline, question: &Question) -> Header {
     Header {
-        analysis: verb.name().to_owned(),
+        analysis: question.verb().name().to_owned(),
         model: ModelIdentity { name: line.name().to_owned(), digest: line.digest() },
         settings: settings(question),
         termination: Termination::completed(),

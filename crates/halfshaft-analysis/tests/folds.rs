@@ -242,3 +242,16 @@ fn planes_of_the_scaled_equation_stay_within_its_meaning() {
         }
     }
 }
+
+// Source: the slow flow of one order does not know the amplitude of another: the axis over the weaker
+// of two torques is that of its own order, with the threshold that it has alone.
+#[test]
+fn an_amplitude_bends_the_response_of_its_own_order() {
+    let second = "[[torque]]\nname = \"second\"\non = \"oscillator\"\namplitude = 1\norder = 2\n";
+    let text = halfshaft_model::embedded::scaled().text + second;
+    let both = folds(&common::line_of(&text, &[]), "second.amplitude=1..20");
+    let alone = common::line_of(&text, &["excitation.amplitude=0"]);
+    let alone = folds(&alone, "second.amplitude=1..20");
+    assert_close(cusps(&both)[0].0, cusps(&alone)[0].0, 1e-12);
+    assert_close(cusps(&both)[0].0, 6.783_767_049_483_465, 1e-9);
+}

@@ -29,8 +29,6 @@ pub enum Reason {
     Unanswered,
     /// A shaft was twisted so far past the limit of its law that nothing holds it back.
     RunsAway,
-    /// No state of rest exists under the mean torques.
-    NoEquilibrium,
 }
 
 /// How an analysis ended.

@@ -77,7 +77,7 @@ fn unknown_columns(study: &Study, items: &[StudyItem]) -> Vec<String> {
         let answers = items.iter().filter(|item| item.figure.as_ref() == Some(&figure.name));
         let names: Vec<String> = answers
             .filter_map(|item| item.answer.as_ref())
-            .flat_map(|answer| answer.tables())
+            .flat_map(Answer::tables)
             .flat_map(|(_, table)| table.columns)
             .map(|column| column.name)
             .collect();

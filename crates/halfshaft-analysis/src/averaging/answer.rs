@@ -2,7 +2,7 @@
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{Question, ResonanceQuestion, Verb};
+use halfshaft_model::question::{Question, ResonanceQuestion};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Branch, Column, Header, JumpSpeeds, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
@@ -31,7 +31,7 @@ pub(crate) fn solve(
     let rest = choose_equilibrium(line, &equations, &states, None)?;
     let modes = excited_modes(&equations, rest, question)?;
     let mut result = ResonanceResult {
-        header: header(line, Verb::Resonance, &Question::Resonance(question.clone())),
+        header: header(line, &Question::Resonance(question.clone())),
         branches: Vec::new(),
         scaling: Vec::new(),
         peaks: Vec::new(),

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{FoldsQuestion, ParameterRange, Question, Verb};
+use halfshaft_model::question::{FoldsQuestion, ParameterRange, Question};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Column, FoldsResult, Reason, SpecialKind, SpecialPoint, Status, Table, Termination,
@@ -90,16 +90,14 @@ impl<'q> Family<'q> {
                 line.parameter(address).map_err(halfshaft_model::ChangeError::Address)?,
             ),
         };
-        let order = match question.order {
-            Some(order) => Some(order),
-            None => strongest(&equations, rest, question.mode)?,
-        };
-        // A torque that the parameter alone brings to life is found at the end of its range.
-        let order = match (order, &target) {
-            (None, Target::Model(parameter)) => {
-                strongest_at(line, parameter, question.parameter.to, question.mode)?
-            }
-            (order, _) => order,
+        let order = match (question.order, &target) {
+            (Some(order), _) => Some(order),
+            // The amplitude of a torque bends the response of its own order.
+            (None, Target::Model(parameter)) => match order_of(line, parameter, question)? {
+                Some(order) => Some(order),
+                None => strongest(&equations, rest, question.mode)?,
+            },
+            (None, Target::Coefficient(_)) => strongest(&equations, rest, question.mode)?,
         };
         let order = order.ok_or_else(|| AnalysisError::NoExcitation {
             reason: "no torque has an amplitude".to_owned(),
@@ -190,8 +188,7 @@ impl<'q> Family<'q> {
                 });
             }
         }
-        let verb = Verb::Folds;
-        let mut header = header(self.line, verb, &Question::Folds(self.question.clone()));
+        let mut header = header(self.line, &Question::Folds(self.question.clone()));
         self.say(traced, curves.is_empty(), outside, &mut header);
         let (equations, mode) = &self.base;
         let states = equilibrium::find_stable(equations)?;
@@ -247,9 +244,8 @@ impl<'q> Family<'q> {
                     self.base.1.f
                 )
             });
-            header
-                .warnings
-                .push(format!("no fold for {address} from {from} to {to} {}{hint}", self.unit()));
+            let unit = if self.unit() == "1" { String::new() } else { format!(" {}", self.unit()) };
+            header.warnings.push(format!("no fold for {address} from {from} to {to}{unit}{hint}"));
         }
         if traced.gaps > 0 {
             header.warnings.push(format!(
@@ -357,15 +353,32 @@ fn strongest(
     Ok(best.map(|(order, _)| order))
 }
 
-/// The same for the line with another value of a parameter.
-fn strongest_at(
+/// The order of which a parameter changes the excitation most over its range; `None` where it
+/// changes none.
+fn order_of(
     line: &Driveline,
     parameter: &halfshaft_model::Parameter,
-    value: f64,
-    mode: usize,
+    question: &FoldsQuestion,
 ) -> Result<Option<f64>, AnalysisError> {
-    let Ok(line) = line.with(parameter, value) else { return Ok(None) };
-    let equations = EquationsOfMotion::new(&line)?;
-    let states = equilibrium::find_stable(&equations)?;
-    states.primary().map_or(Ok(None), |rest| strongest(&equations, rest, mode))
+    if !question.parameter.address.ends_with("amplitude") {
+        return Ok(None);
+    }
+    let Ok(loud) = line.with(parameter, question.parameter.to) else { return Ok(None) };
+    let Ok(quiet) = line.with(parameter, 0.0) else { return Ok(None) };
+    let drives = |line: &Driveline| -> Result<Vec<(f64, f64)>, AnalysisError> {
+        let equations = EquationsOfMotion::new(line)?;
+        let states = equilibrium::find_stable(&equations)?;
+        let Some(rest) = states.primary() else { return Ok(Vec::new()) };
+        let orders = equations.excitation.orders().into_iter();
+        orders
+            .map(|order| Ok((order, ModeEquation::new(&equations, rest, question.mode, order)?.f)))
+            .collect()
+    };
+    let without = drives(&quiet)?;
+    let gained = drives(&loud)?.into_iter().map(|(order, f)| {
+        let before = without.iter().find(|(other, _)| *other == order).map_or(0.0, |(_, f)| *f);
+        (order, (f - before).abs())
+    });
+    let most = gained.max_by(|a, b| a.1.total_cmp(&b.1));
+    Ok(most.filter(|(_, gain)| *gain > 0.0).map(|(order, _)| order))
 }

@@ -3,7 +3,7 @@
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::elements::{MeanTorque, Pulse, PulseShape, Shaft};
-use halfshaft_model::question::{Question, Verb};
+use halfshaft_model::question::Question;
 use halfshaft_results::{
     CheckResult, CheckedGear, CheckedHarmonic, CheckedPulse, CheckedShaft, CheckedTorque, Member,
     NonlinearTerm, ReducedInertia,
@@ -16,7 +16,7 @@ use crate::header::header;
 pub(crate) fn solve(line: &Driveline) -> Result<CheckResult, AnalysisError> {
     let equations = EquationsOfMotion::new(line)?;
     Ok(CheckResult {
-        header: header(line, Verb::Check, &Question::Check),
+        header: header(line, &Question::Check),
         description: line.description().to_owned(),
         grounded: equations.network.grounded,
         degrees_of_freedom: equations.groups(),
@@ -115,14 +115,8 @@ fn torque(torque: &halfshaft_model::elements::Torque) -> CheckedTorque {
 }
 
 fn pulse(pulse: &Pulse) -> CheckedPulse {
-    let shape = match pulse.shape {
-        PulseShape::HalfSine => "half-sine",
-        PulseShape::Rectangle => "rectangle",
-        PulseShape::Ramp => "ramp",
-        PulseShape::Impulse => "impulse",
-    };
     CheckedPulse {
-        shape: shape.to_owned(),
+        shape: pulse.shape.name().to_owned(),
         peak: (pulse.shape != PulseShape::Impulse).then_some(pulse.peak_nm),
         start: pulse.start_s,
         duration: pulse.duration_s,

@@ -2,7 +2,7 @@
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{Question, Verb};
+use halfshaft_model::question::Question;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Column, Equilibrium, GearState, Named, Reason, RunningKind, ShaftCapacity, SharedLoad,
@@ -32,7 +32,7 @@ pub(crate) fn solve(
         (0..capacities.len()).map(|index| carries(&capacities[index], asked(index)));
     let gears = gear_states(line, observer)?;
     let equilibria = listed(&equations, &states, observer)?;
-    let mut header = header(line, Verb::Static, &Question::Static);
+    let mut header = header(line, &Question::Static);
     header.assumptions.push(running_sentence(&equations, &states));
     if !states.proven {
         header.assumptions.push(

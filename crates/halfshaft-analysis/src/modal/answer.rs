@@ -2,7 +2,7 @@
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{ModesQuestion, Question, Verb};
+use halfshaft_model::question::{ModesQuestion, Question};
 use halfshaft_numerics::Complex;
 use halfshaft_results::{Equilibrium, Mode, ModesResult, Named};
 
@@ -33,7 +33,7 @@ pub(crate) fn solve(
     for (mode, pair) in undamped.iter().zip(&pairs.elastic) {
         modes.push(elastic_mode(&equations, state, mode, *pair));
     }
-    let mut header = header(line, Verb::Modes, &Question::Modes(question.clone()));
+    let mut header = header(line, &Question::Modes(question.clone()));
     header.assumptions.push(
         "small vibrations about the equilibrium: each shaft acts by its tangent stiffness there"
             .to_owned(),

@@ -3,7 +3,7 @@
 use halfshaft_dynamics::{Active, EquationsOfMotion, Motion};
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{
-    ChannelQuantity, Question, ShockEquation, ShockMethod, ShockQuestion, Start, Verb,
+    ChannelQuantity, Question, ShockEquation, ShockMethod, ShockQuestion, Start,
 };
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
@@ -62,7 +62,7 @@ pub(crate) fn solve(
 
 impl ShockProblem<'_> {
     fn header(&self) -> Header {
-        let mut header = header(self.line, Verb::Shock, &Question::Shock(self.question.clone()));
+        let mut header = header(self.line, &Question::Shock(self.question.clone()));
         let harmonic = self.equations.excitation.sources.iter().any(|s| !s.harmonics.is_empty());
         if harmonic {
             header.assumptions.push("harmonic torques are silent during the shock".to_owned());

@@ -2,7 +2,7 @@
 
 use halfshaft_dynamics::{Active, EquationsOfMotion, Motion};
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{Question, SimulateQuestion, Start, Verb};
+use halfshaft_model::question::{Question, SimulateQuestion, Start};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Column, EnergyBalance, Header, HistoryMetrics, HistoryResult, Named, Reason,
@@ -39,7 +39,7 @@ pub(crate) fn solve(
     };
     let run = run(&equations, &state, &settings, observer)?;
 
-    let mut header = header(line, Verb::Simulate, &Question::Simulate(question.clone()));
+    let mut header = header(line, &Question::Simulate(question.clone()));
     header.termination = run.termination.clone();
     header.assumptions.push(start_sentence(question));
     let orders = equations.excitation.orders();

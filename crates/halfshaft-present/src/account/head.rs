@@ -32,7 +32,6 @@ pub(crate) fn early_end(termination: &Termination) -> Option<String> {
         Reason::NonFinite => "a value left the numbers: the motion runs away",
         Reason::Unanswered => "some questions have no full answer",
         Reason::RunsAway => "nothing holds the motion back any more",
-        Reason::NoEquilibrium => "there is no state of rest under the mean torques",
     };
     let detail = termination.detail.as_deref().map(plain).unwrap_or_default();
     let more = if detail.is_empty() { String::new() } else { format!("; {detail}") };
