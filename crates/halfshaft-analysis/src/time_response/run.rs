@@ -135,8 +135,8 @@ fn reaches(equations: &EquationsOfMotion) -> Vec<(usize, f64)> {
 fn ran_away(equations: &EquationsOfMotion, tree: usize, reach: f64, time: f64) -> Termination {
     let name = &equations.connections[equations.network.tree[tree].shaft].name;
     let detail = format!(
-        "the motion runs away: at t = {time:.6} s the {name} is twisted past {reach:.4} rad, {LOST} \
-         times the limit of its law, and nothing holds it back; see `halfshaft static`"
+        "at t = {time:.6} s the {name} is twisted past {reach:.4} rad, {LOST} times the limit of its \
+         law, and the motion runs away; see `halfshaft static`"
     );
     Termination::early(Reason::RunsAway, detail)
 }

@@ -3,7 +3,7 @@
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::dense::Matrix;
 use halfshaft_numerics::fourier;
-use halfshaft_numerics::observer::Observer;
+use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_numerics::ode::System;
 use halfshaft_numerics::ode::periodic::{PeriodicSettings, find_orbit};
 use halfshaft_results::VerifiedPoint;
@@ -15,6 +15,9 @@ use crate::error::{AnalysisError, Doing};
 
 /// Speeds spread over the range at which responses are checked.
 const SPREAD: u32 = 8;
+/// Lines of more groups than this are checked at the ends of the range and where it tells most: the
+/// work of one check grows with the cube of their number.
+const LARGE: usize = 8;
 /// Speeds nearer to a fold than this part of the range are not chosen: there the prediction may
 /// have no orbit to stand for.
 const FOLD_MARGIN: f64 = 2e-3;
@@ -35,7 +38,8 @@ pub(crate) fn choose(mode: &ModeEquation, (from, to): (f64, f64)) -> Vec<Respons
     let apart = |sigma: f64, others: &[f64], by: f64| {
         others.iter().all(|other| (sigma - other).abs() > by * (high - low))
     };
-    let spread = (0..SPREAD).map(|k| low + (high - low) * f64::from(k) / f64::from(SPREAD - 1));
+    let count = if mode.group_per_x.len() > LARGE { 2 } else { SPREAD };
+    let spread = (0..count).map(|k| low + (high - low) * f64::from(k) / f64::from(count - 1));
     let mut sigmas: Vec<f64> = spread
         .filter(|sigma| apart(*sigma, &folds, FOLD_MARGIN) && apart(*sigma, &telling, NEIGHBOUR))
         .collect();
@@ -75,7 +79,8 @@ pub(crate) fn periodic(
     let Some(base) = common_order(&equations.excitation.orders()) else { return Ok(None) };
     let mut verified = Verified::default();
     let room = equilibrium::room(equations, mode.reference, &mode.rest_twists);
-    for point in points {
+    for (index, point) in points.iter().enumerate() {
+        Part::of(observer, index, points.len()).progress(0.0);
         if observer.cancelled() {
             verified.cancelled = true;
             break;
