@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use halfshaft::model::FileError;
 use halfshaft::model::question::OptionError;
 use halfshaft::model::study::StudyError;
 use halfshaft::{AnalysisError, Diagnostics, LoadError, OutputError};
@@ -59,7 +60,17 @@ impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
         match error {
             LoadError::Diagnostics(diagnostics) => Self::Diagnostics(diagnostics),
-            LoadError::File(error) => Self::Input { message: error.to_string(), advice: None },
+            LoadError::File(error) => {
+                let advice = match &error {
+                    FileError::Unreadable { path, source }
+                        if source.kind() == std::io::ErrorKind::NotFound =>
+                    {
+                        Some(format!("`halfshaft new {path}` writes a model to start from"))
+                    }
+                    _ => None,
+                };
+                Self::Input { message: error.to_string(), advice }
+            }
         }
     }
 }

@@ -30,6 +30,14 @@ pub enum RangeError {
         /// The unit.
         unit: String,
     },
+    /// A range of times or speeds whose first end is the larger one.
+    #[error("the range \"{text}\" runs backwards")]
+    Reversed {
+        /// The text as written.
+        text: String,
+        /// The same with its ends exchanged.
+        meant: String,
+    },
     /// Both ends are the same.
     #[error("the range \"{text}\" is empty")]
     Empty {
@@ -55,6 +63,7 @@ impl RangeError {
                 "write the smaller number first, or, if the first is not in {unit}, each number \
                  with its own unit"
             )),
+            Self::Reversed { meant, .. } => Some(format!("did you mean \"{meant}\"?")),
             Self::Empty { .. } => Some("give two different ends".to_owned()),
         }
     }
@@ -74,11 +83,12 @@ pub fn parse_flag_quantity(text: &str, kind: QuantityKind) -> Result<f64, Quanti
 /// Reads `A..B`; returns the smaller end first.
 ///
 /// Bare numbers are in SI; where only the second one has a unit it holds for both (`20..28 Hz`).
-/// Where both numbers say for themselves what they are, the larger one may come first.
+/// Where both numbers say for themselves what they are, the larger one may come first (a coefficient
+/// runs from nothing to `0..-642`), but not of times and speeds, which have one direction.
 ///
 /// # Errors
 /// [`RangeError`] where there are no two dots, an end cannot be read, only the first number has a
-/// unit, or both are equal.
+/// unit, a range of times or speeds runs backwards, or both ends are equal.
 pub fn parse_range(text: &str, kind: QuantityKind) -> Result<(f64, f64), RangeError> {
     let owned = || text.trim().to_owned();
     let no_dots = || RangeError::NoDots { text: text.to_owned(), kind };
@@ -109,6 +119,9 @@ pub fn parse_range(text: &str, kind: QuantityKind) -> Result<(f64, f64), RangeEr
     if start == end {
         return Err(RangeError::Empty { text: owned() });
     }
+    if start > end && matches!(kind, QuantityKind::Time | QuantityKind::Speed) {
+        return Err(RangeError::Reversed { text: owned(), meant: format!("{to}..{from}") });
+    }
     Ok((start.min(end), start.max(end)))
 }
 
@@ -138,10 +151,26 @@ mod tests {
         assert!(hint.is_some_and(|hint| hint.contains("\"3.9Hz..4.4Hz\"")));
         assert!(matches!(speed("28..4.4Hz"), Err(RangeError::Backwards { .. })));
         // With a unit at both, at none, or at a zero, nothing is in doubt.
-        assert_eq!(speed("4Hz..3Hz"), speed("3Hz..4Hz"));
-        assert_eq!(speed("28..20"), Ok((20.0, 28.0)));
-        assert_eq!(speed("3Hz..0"), speed("0..3Hz"));
-        assert_eq!(speed("0..-3Hz"), speed("-3Hz..0Hz"));
+        let torque = |text| parse_range(text, QuantityKind::Torque);
+        assert_eq!(torque("4kN·m..3kN·m"), torque("3kN·m..4kN·m"));
+        assert_eq!(torque("28..20"), Ok((20.0, 28.0)));
+        assert_eq!(torque("3kN·m..0"), torque("0..3kN·m"));
+        assert_eq!(torque("0..-3kN·m"), torque("-3kN·m..0N·m"));
+    }
+
+    // Source: a first-time user's trial: `--record 2..1`.
+    #[test]
+    fn times_and_speeds_that_run_backwards_are_refused() {
+        for (text, kind, meant) in [
+            ("2..1", QuantityKind::Time, "1..2"),
+            ("4Hz..3Hz", QuantityKind::Speed, "3Hz..4Hz"),
+            ("3Hz..0", QuantityKind::Speed, "0..3Hz"),
+            ("0..-3Hz", QuantityKind::Speed, "-3Hz..0"),
+        ] {
+            let hint = parse_range(text, kind).expect_err("runs backwards").hint();
+            assert_eq!(hint, Some(format!("did you mean \"{meant}\"?")));
+            assert!(parse_range(meant, kind).is_ok(), "{meant}");
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod common;
 mod helpers;
 mod questions;
+mod words;
 
 use std::path::PathBuf;
 

@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
+use halfshaft::model::question::{ResonanceMethod, ShockEquation, ShockMethod, Start};
 use halfshaft::{QuestionText, Verb};
 
 use super::common::Common;
+use super::words::OneOf;
 
 /// Questions about a line.
 #[derive(Debug, Subcommand)]
@@ -99,7 +101,7 @@ pub struct Simulate {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub duration: Option<String>,
     /// State before the initial values: everything zero, or the stable equilibrium [default: rest]
-    #[arg(long, value_name = "rest|equilibrium")]
+    #[arg(long, value_name = "START", value_parser = OneOf(&Start::WORDS))]
     pub start: Option<String>,
     /// A value at time 0: "half-shaft.twist=1 rad", "engine.speed=900 rpm" (repeatable)
     #[arg(long, value_name = "CHANNEL=VALUE")]
@@ -122,14 +124,19 @@ pub struct Simulate {
 pub struct Shock {
     #[command(flatten)]
     pub model: Model,
-    /// full, clamped, published or multiple-scales [default: full]
-    #[arg(long, value_name = "METHOD")]
+    /// Which equations [default: full]
+    #[arg(long, value_name = "METHOD", value_parser = OneOf(&ShockMethod::WORDS))]
     pub method: Option<String>,
     /// Multiple scales: of which order [default: 2]
-    #[arg(long, value_name = "1|2", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "ORDER",
+        value_parser = OneOf(&["1", "2"]),
+        allow_hyphen_values = true
+    )]
     pub order: Option<String>,
-    /// Multiple scales: of which equation, published, clamped or twist [default: published]
-    #[arg(long, value_name = "EQUATION")]
+    /// Multiple scales: of which equation [default: published]
+    #[arg(long, value_name = "EQUATION", value_parser = OneOf(&ShockEquation::WORDS))]
     pub equation: Option<String>,
     /// Multiple scales, order 1: leave the slow terms out of the velocity, as the paper's figures do
     #[arg(long)]
@@ -159,8 +166,8 @@ pub struct Resonance {
     /// resonance]
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
-    /// How: averaged (closed form of one mode) [default: averaged]
-    #[arg(long, value_name = "METHOD")]
+    /// How; averaged is a closed form of one mode [default: averaged]
+    #[arg(long, value_name = "METHOD", value_parser = OneOf(&ResonanceMethod::WORDS))]
     pub method: Option<String>,
     /// Which elastic mode [default: 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
@@ -186,8 +193,8 @@ pub struct Folds {
     /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz or 3.9..4.4Hz [default: all]
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
-    /// How: averaged (closed form of one mode) [default: averaged]
-    #[arg(long, value_name = "METHOD")]
+    /// How; averaged is a closed form of one mode [default: averaged]
+    #[arg(long, value_name = "METHOD", value_parser = OneOf(&ResonanceMethod::WORDS))]
     pub method: Option<String>,
     /// Which elastic mode [default: 1]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]

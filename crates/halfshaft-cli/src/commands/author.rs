@@ -7,6 +7,7 @@ use halfshaft::model::format::{MODEL, json_schema, reference_page};
 use halfshaft::model::{embedded, study};
 use halfshaft::results::io::write_atomically;
 
+use super::manual;
 use crate::args::{Arguments, Author, Folder, New, Printed};
 use crate::console;
 use crate::failure::Failure;
@@ -76,8 +77,7 @@ fn manual(Folder { folder, quiet }: &Folder) -> Result<(), Failure> {
         pages.push((name.clone(), command.clone().name(name.leak() as &'static str)));
     }
     for (name, command) in pages {
-        let mut text = Vec::new();
-        clap_mangen::Man::new(command).render(&mut text).map_err(io)?;
+        let text = manual::page(&command).map_err(io)?;
         save(&folder.join(format!("{name}.1")), &text)?;
     }
     if !quiet.quiet {

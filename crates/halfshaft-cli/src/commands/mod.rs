@@ -2,6 +2,7 @@
 
 pub mod ask;
 pub mod author;
+mod manual;
 pub mod report;
 pub mod run;
 

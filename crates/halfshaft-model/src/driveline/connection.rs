@@ -65,6 +65,25 @@ fn anchored(line: &Driveline) -> impl Iterator<Item = &str> {
     inertias.chain(gears)
 }
 
+/// Most nodes that a hint lists.
+const MOST_LISTED: usize = 8;
+
+/// The first nodes as a list, for who has misspelt one beyond recognition.
+fn listed<'l>(nodes: impl Iterator<Item = &'l str>) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for node in nodes.filter(|node| !node.is_empty()) {
+        if names.contains(&node) {
+            continue;
+        }
+        if names.len() == MOST_LISTED {
+            names.push("...");
+            break;
+        }
+        names.push(node);
+    }
+    names.join(", ")
+}
+
 /// Every torque needs an existing node.
 fn check_torque_nodes(
     line: &Driveline,
@@ -76,7 +95,11 @@ fn check_torque_nodes(
     for (index, torque) in line.torques.iter().enumerate() {
         if topology.node(&torque.on).is_none() && places.has("torque", index, "on") {
             let message = format!("no node is named \"{}\"", torque.on);
-            let hint = looks.next().and_then(|_| did_you_mean(&torque.on, anchored(line)));
+            let hint = looks.next().map(|_| {
+                did_you_mean(&torque.on, anchored(line)).unwrap_or_else(|| {
+                    format!("the nodes of this line are {}", listed(anchored(line)))
+                })
+            });
             let span = places.key("torque", index, "on");
             found.push(Diagnostic::error(span, message).maybe_hint(hint));
         }
@@ -88,6 +111,8 @@ struct Massless<'l> {
     name: &'l str,
     meant: Option<&'l str>,
 }
+
+const ADD_INERTIA: &str = "add an [[inertia]] of that name, or connect the node by a [[gear]]";
 
 /// Every group of nodes needs an inertia; returns those without.
 fn check_masses<'l>(
@@ -113,10 +138,15 @@ fn check_masses<'l>(
         });
         let name = misspelt.map_or(topology.nodes[group.reference].name.as_str(), |(n, _)| n);
         let meant = misspelt.map(|(_, meant)| meant);
-        let hint = meant.map_or_else(
-            || "add an [[inertia]] of that name, or connect the node by a [[gear]]".to_owned(),
-            |meant| format!("did you mean \"{meant}\"?"),
-        );
+        let elsewhere = |other: &&str| topology.place(other).is_some_and(|(g, _)| g != number);
+        let hint = match meant {
+            Some(meant) => format!("did you mean \"{meant}\"?"),
+            None if looks.is_empty() => ADD_INERTIA.to_owned(),
+            None => match listed(anchored(line).filter(elsewhere)) {
+                others if others.is_empty() => ADD_INERTIA.to_owned(),
+                others => format!("{ADD_INERTIA}; the other nodes are {others}"),
+            },
+        };
         let message = format!("the node \"{name}\" has no inertia");
         found.push(Diagnostic::error(mention(&mentions, places, name), message).hint(hint));
         massless.push(Massless { name, meant });

@@ -11,11 +11,12 @@ mod reader;
 mod reference;
 mod schema;
 mod spec;
+mod syntax;
 
 pub(crate) use checked::{Checked, CheckedTable};
 pub use limits::{FileError, LARGEST_FILE, read_file};
 pub use model_file::{MODEL, SetFlag, read_model};
-pub(crate) use reader::read_document;
+pub(crate) use reader::{OtherFile, read_document};
 pub use reference::reference_page;
 pub use schema::json_schema;
 pub(crate) use spec::words;

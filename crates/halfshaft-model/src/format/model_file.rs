@@ -6,7 +6,7 @@ use crate::elements::{
     GEAR, Gear, INERTIA, Inertia, PULSE, PulseShape, SHAFT, Shaft, TORQUE, Torque,
 };
 use crate::format::checked::CheckedTable;
-use crate::format::reader::read_document;
+use crate::format::reader::{OtherFile, read_document};
 use crate::format::spec::{KeySpec, TableSpec, ValueSpec};
 use crate::parameter::{self, AddressError};
 use crate::range::parse_flag_quantity;
@@ -26,6 +26,13 @@ pub static MODEL: TableSpec = TableSpec {
         KeySpec::new("shaft", ValueSpec::Tables(&SHAFT), "Torsional connections.").required(),
         KeySpec::new("torque", ValueSpec::Tables(&TORQUE), "External torques."),
     ],
+};
+
+/// A study in the place of a model.
+static A_STUDY: OtherFile = OtherFile {
+    lists: &["question", "figure"],
+    message: "this is a study file, not a model file",
+    command: "halfshaft run",
 };
 
 /// One `--set "ADDRESS=VALUE"`.
@@ -51,7 +58,9 @@ pub fn read_model(
         );
         return Err(found);
     }
-    let document = read_document(&text, &MODEL, &mut found);
+    let Some(document) = read_document(&text, &MODEL, &A_STUDY, &mut found) else {
+        return Err(found);
+    };
     for torque in document.tables("torque") {
         check_pulse(torque, &mut found);
     }
@@ -154,10 +163,15 @@ fn apply_setting(
             }
             return;
         }
-        Ok(_) => {
+        Ok(si) => {
             Diagnostic::error(value_span, format!("\"{address}\" must {}", parameter.sign.rule()))
+                .maybe_hint(parameter.sign.advice(si).map(str::to_owned))
         }
-        Err(error) => Diagnostic::error(value_span, error.to_string()).maybe_hint(error.hint()),
+        Err(error) => {
+            let balance = [crate::elements::BALANCE_WORD];
+            let words: &[&str] = if parameter.takes_balance() { &balance } else { &[] };
+            Diagnostic::error(value_span, error.to_string()).maybe_hint(error.hint_or_word(words))
+        }
     };
     found.push(problem.in_source(source));
 }

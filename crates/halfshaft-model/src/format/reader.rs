@@ -7,29 +7,55 @@ use toml::de::{DeTable, DeValue};
 
 use super::checked::{Checked, CheckedTable, Entry};
 use super::spec::{KeySpec, TableSpec, ValueSpec};
-use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean, with_article};
+use super::syntax;
+use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean, nearest, with_article};
 use crate::range::parse_range;
-use crate::units::{QuantityKind, Sign, parse_quantity};
+use crate::units::{QuantityError, QuantityKind, Sign, parse_quantity};
 
-/// Parses `text` and checks it after `spec`; syntax errors and all others go to `found`.
+/// The other kind of file, which is easily given in the place of the one that is wanted.
+pub(crate) struct OtherFile {
+    /// The lists that only it has.
+    pub(crate) lists: &'static [&'static str],
+    /// What is to be said.
+    pub(crate) message: &'static str,
+    /// What to do with it, before the name of the file.
+    pub(crate) command: &'static str,
+}
+
+/// Parses `text` and checks it after `spec`; syntax errors and all others go to `found`. `None`
+/// where it is the other kind of file, of which nothing more needs to be said.
 pub(crate) fn read_document(
     text: &str,
     spec: &'static TableSpec,
+    other: &OtherFile,
     found: &mut Diagnostics,
-) -> CheckedTable {
+) -> Option<CheckedTable> {
     let (document, errors) = DeTable::parse_recoverable(text);
-    let broken = !errors.is_empty();
-    for error in errors {
-        let span = error.span().unwrap_or(0..0);
-        found.push(
-            Diagnostic::error(span, error.message().trim().to_owned())
-                .hint("the file is TOML: key = value, texts in quotation marks"),
-        );
+    let table = document.get_ref();
+    let is_own = |key: &KeySpec| matches!(key.value, ValueSpec::Tables(_));
+    let own = spec.keys.iter().any(|key| is_own(key) && table.contains_key(key.name));
+    if !own && other.lists.iter().any(|list| table.contains_key(*list)) {
+        let file = found.sources.first().map_or("", |source| source.name.as_str());
+        let hint = format!("use `{} {file}`", other.command);
+        found.push(Diagnostic::error(0..0, other.message).hint(hint));
+        return None;
     }
-    let mut checked = check_table(document.get_ref(), document.span(), spec, found);
-    checked.strays |= broken;
-    checked.sound &= !broken;
-    checked
+    let broken = syntax::report(text, errors, found);
+    let before = found.items.len();
+    let mut checked = check_table(table, document.span(), spec, found);
+    // What the parser made of a broken line says nothing about what was meant.
+    let within_broken = |span: &Range<usize>| {
+        let next = broken.partition_point(|line| line.start <= span.start);
+        broken[..next].last().is_some_and(|line| span.end <= line.end)
+    };
+    let mut number = 0;
+    found.items.retain(|item| {
+        number += 1;
+        number <= before || !within_broken(&item.span)
+    });
+    checked.strays |= !broken.is_empty();
+    checked.sound &= broken.is_empty();
+    Some(checked)
 }
 
 /// Checks one table after its specification.
@@ -47,6 +73,9 @@ fn check_table(
     for (key, value) in written {
         let Some(key_spec) = spec.key(key.get_ref()) else {
             found.push(unknown_key(key, spec));
+            // The key that was meant is there, if not as it should be.
+            let meant = nearest(key.get_ref(), spec.keys.iter().map(|key| key.name));
+            checked.unsound.extend(meant.filter(|meant| !table.contains_key(*meant)));
             // It may be meant as one of the lists.
             checked.strays |= matches!(value.get_ref(), DeValue::Array(_) | DeValue::Table(_));
             continue;
@@ -121,19 +150,19 @@ fn check_key(
         ValueSpec::Text => text(key, value, found).map(Checked::Text),
         ValueSpec::Node { ground } => node(key, value, ground, found).map(Checked::Text),
         ValueSpec::Quantity(kind, sign) => {
-            quantity(key.name, value, kind, sign, found).map(Checked::Number)
+            quantity(key.name, value, (kind, sign, &[]), found).map(Checked::Number)
         }
         ValueSpec::QuantityOr(kind, sign, words) => {
             let word = value.get_ref().as_str().and_then(|t| words.iter().find(|w| **w == t));
             match word {
                 Some(word) => Some(Checked::Word(word)),
-                None => quantity(key.name, value, kind, sign, found).map(Checked::Number),
+                None => quantity(key.name, value, (kind, sign, words), found).map(Checked::Number),
             }
         }
         ValueSpec::Quantities(kind, sign) => {
             let items = array(key, value, found)?;
-            let numbers: Vec<_> =
-                items.iter().map(|item| quantity(key.name, item, kind, sign, found)).collect();
+            let read = |item| quantity(key.name, item, (kind, sign, &[]), found);
+            let numbers: Vec<_> = items.iter().map(read).collect();
             numbers.into_iter().collect::<Option<_>>().map(Checked::Numbers)
         }
         ValueSpec::Range(kind) => range(key, value, kind, found),
@@ -205,21 +234,20 @@ fn node(
     Some(name)
 }
 
+/// A quantity of some kind and sign; some words may have been tried in vain.
 fn quantity(
     key: &str,
     value: &Spanned<DeValue<'_>>,
-    kind: QuantityKind,
-    sign: Sign,
+    (kind, sign, words): (QuantityKind, Sign, &[&str]),
     found: &mut Diagnostics,
 ) -> Option<f64> {
     let si = match value.get_ref() {
         DeValue::String(text) => match parse_quantity(text, kind) {
             Ok(si) => si,
             Err(error) => {
-                found.push(
-                    Diagnostic::error(value.span(), format!("{key}: {error}"))
-                        .maybe_hint(error.hint()),
-                );
+                let (message, hint) = wrong_sign_too(key, &error, sign)
+                    .unwrap_or_else(|| (format!("{key}: {error}"), error.hint_or_word(words)));
+                found.push(Diagnostic::error(value.span(), message).maybe_hint(hint));
                 return None;
             }
         },
@@ -231,6 +259,21 @@ fn quantity(
         }
     };
     check_sign(key, si, sign, value.span(), found)
+}
+
+/// Message and hint where a number without its unit has the wrong sign as well: whoever adds the
+/// unit only would have to try a third time.
+fn wrong_sign_too(
+    key: &str,
+    error: &QuantityError,
+    sign: Sign,
+) -> Option<(String, Option<String>)> {
+    let QuantityError::NoUnit { text, kind } = error else { return None };
+    let value = parse_quantity(text, QuantityKind::Number).ok()?;
+    sign.advice(value)?;
+    let message = format!("\"{key}\" must {}, and its unit is missing", sign.rule());
+    let right = text.trim().trim_start_matches(['-', '−']).trim_start();
+    Some((message, Some(format!("write \"{right} {}\"", kind.si_unit()))))
 }
 
 /// A sample of how a quantity is written, for messages.
@@ -269,7 +312,10 @@ fn check_sign(
     if sign.allows(value) {
         return Some(value);
     }
-    found.push(Diagnostic::error(span, format!("\"{key}\" must {}", sign.rule())));
+    found.push(
+        Diagnostic::error(span, format!("\"{key}\" must {}", sign.rule()))
+            .maybe_hint(sign.advice(value).map(str::to_owned)),
+    );
     None
 }
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::channel::InitialValue;
+use crate::format::words;
 
 /// What is asked, in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -96,6 +97,14 @@ pub enum Start {
     Equilibrium,
 }
 
+impl Start {
+    /// All states with their names.
+    pub const ALL: [(&'static str, Self); 2] =
+        [("rest", Self::Rest), ("equilibrium", Self::Equilibrium)];
+    /// The names alone.
+    pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
+}
+
 /// Settings of `simulate`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SimulateQuestion {
@@ -144,6 +153,18 @@ pub enum ShockMethod {
     MultipleScales,
 }
 
+impl ShockMethod {
+    /// All methods with their names.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("full", Self::Full),
+        ("clamped", Self::Clamped),
+        ("published", Self::Published),
+        ("multiple-scales", Self::MultipleScales),
+    ];
+    /// The names alone.
+    pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
+}
+
 /// Which single equation a closed form solves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -155,6 +176,14 @@ pub enum ShockEquation {
     Clamped,
     /// The relative twist of the free two-mass line.
     Twist,
+}
+
+impl ShockEquation {
+    /// All equations with their names.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("published", Self::Published), ("clamped", Self::Clamped), ("twist", Self::Twist)];
+    /// The names alone.
+    pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
 }
 
 /// Settings of `shock`.
@@ -204,6 +233,13 @@ pub enum ResonanceMethod {
     /// Closed form: averaging of one mode.
     #[default]
     Averaged,
+}
+
+impl ResonanceMethod {
+    /// All methods with their names.
+    pub const ALL: [(&'static str, Self); 1] = [("averaged", Self::Averaged)];
+    /// The names alone.
+    pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
 }
 
 /// Settings of `resonance`.

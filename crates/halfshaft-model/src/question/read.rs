@@ -63,19 +63,8 @@ impl Reader<'_> {
         let default = ShockQuestion::default();
         let text = self.text;
         let duration = self.duration(default.duration);
-        let methods = [
-            ("full", ShockMethod::Full),
-            ("clamped", ShockMethod::Clamped),
-            ("published", ShockMethod::Published),
-            ("multiple-scales", ShockMethod::MultipleScales),
-        ];
-        let equations = [
-            ("published", ShockEquation::Published),
-            ("clamped", ShockEquation::Clamped),
-            ("twist", ShockEquation::Twist),
-        ];
         let errors = self.errors.len();
-        let method = self.choice("method", text.method.as_deref(), &methods);
+        let method = self.choice("method", text.method.as_deref(), &ShockMethod::ALL);
         if self.errors.len() == errors {
             self.unused_by(method.unwrap_or_default());
         }
@@ -89,7 +78,7 @@ impl Reader<'_> {
             method: method.unwrap_or_default(),
             order: if order == Some(1) { 1 } else { default.order },
             equation: self
-                .choice("equation", text.equation.as_deref(), &equations)
+                .choice("equation", text.equation.as_deref(), &ShockEquation::ALL)
                 .unwrap_or_default(),
             printed_velocity: text.printed_velocity,
             initial: self.initial(),

@@ -61,8 +61,7 @@ impl Reader<'_> {
             self.errors.push(OptionError::new("method", planned, message, hint));
             return ResonanceMethod::Averaged;
         }
-        let methods = [("averaged", ResonanceMethod::Averaged)];
-        self.choice("method", text, &methods).unwrap_or_default()
+        self.choice("method", text, &ResonanceMethod::ALL).unwrap_or_default()
     }
 
     pub(super) fn excitation_order(&mut self) -> Option<f64> {
@@ -71,8 +70,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn start(&mut self) -> Start {
-        let starts = [("rest", Start::Rest), ("equilibrium", Start::Equilibrium)];
-        self.choice("start", self.text.start.as_deref(), &starts).unwrap_or_default()
+        self.choice("start", self.text.start.as_deref(), &Start::ALL).unwrap_or_default()
     }
 
     pub(super) fn initial(&mut self) -> Vec<InitialValue> {
@@ -151,7 +149,10 @@ impl Reader<'_> {
         let text = text?;
         let problem = match parse_flag_quantity(text, kind) {
             Ok(value) if sign.allows(value) => return Some(value),
-            Ok(_) => OptionError::new(option, text, format!("it must {}", sign.rule()), ""),
+            Ok(value) => {
+                let hint = sign.advice(value).unwrap_or_default();
+                OptionError::new(option, text, format!("it must {}", sign.rule()), hint)
+            }
             Err(error) => {
                 let hint = error.hint().unwrap_or_default();
                 OptionError::new(option, text, error.to_string(), hint)

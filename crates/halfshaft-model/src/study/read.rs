@@ -9,9 +9,16 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Source, did_you_mean};
 use crate::driveline::Driveline;
 use crate::embedded;
 use crate::format::{
-    Checked, CheckedTable, FileError, SetFlag, read_document, read_file, read_model,
+    Checked, CheckedTable, FileError, OtherFile, SetFlag, read_document, read_file, read_model,
 };
 use crate::question::{self, OptionError, QuestionText, Verb};
+
+/// A model in the place of a study.
+static A_MODEL: OtherFile = OtherFile {
+    lists: &["inertia", "gear", "shaft", "torque"],
+    message: "this is a model file, not a study file",
+    command: "halfshaft check",
+};
 
 /// Why a study cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -41,7 +48,9 @@ pub fn read_study(path: &Path) -> Result<Study, StudyError> {
 pub fn read_study_text(source: Source, folder: impl Into<PathBuf>) -> Result<Study, Diagnostics> {
     let mut found = Diagnostics::about(source);
     let text = found.sources[0].text.clone();
-    let document = read_document(&text, &STUDY, &mut found);
+    let Some(document) = read_document(&text, &STUDY, &A_MODEL, &mut found) else {
+        return Err(found);
+    };
     let mut reader = Reader {
         folder: folder.into(),
         document: &document,

@@ -31,6 +31,9 @@ pub(super) static UNITS: &[Unit] = &[
     unit("g", 1e-3, Dimension::MASS, true),
     unit("t", 1e3, Dimension::MASS, false),
     unit("lb", POUND, Dimension::MASS, false),
+    // Workshops write lb-ft for a torque. No dimension fits both readings, so that the place where
+    // it stands tells them apart.
+    unit("lb", POUND * STANDARD_GRAVITY, Dimension::FORCE, false),
     unit("lbm", POUND, Dimension::MASS, false),
     unit("slug", POUND * STANDARD_GRAVITY / FOOT, Dimension::MASS, false),
     unit("m", 1.0, Dimension::LENGTH, true),
@@ -49,6 +52,7 @@ pub(super) static UNITS: &[Unit] = &[
     unit("arcmin", PI / 10_800.0, Dimension::ANGLE, false),
     unit("rev", 2.0 * PI, Dimension::ANGLE, false),
     unit("turn", 2.0 * PI, Dimension::ANGLE, false),
+    unit("U", 2.0 * PI, Dimension::ANGLE, false),
     unit("rpm", PI / 30.0, Dimension::SPEED, false),
     unit("Hz", 2.0 * PI, Dimension::SPEED, true),
     unit("N", 1.0, Dimension::FORCE, true),
@@ -92,14 +96,19 @@ pub(super) fn readings(text: &str) -> impl Iterator<Item = (f64, Dimension)> + '
     plain.chain(prefixed)
 }
 
-/// The known unit whose name is nearest to `text`, for "did you mean".
+/// The known unit whose name is nearest to `text`, for "did you mean"; more than half of the
+/// letters must be right, or every short unit would be near to every other.
 pub(super) fn nearest(text: &str) -> Option<String> {
+    let length = text.chars().count();
     let plain = UNITS.iter().map(|u| u.name.to_owned());
     let common = ["kg", "mm", "cm", "kN", "Nm", "ms", "kHz", "GPa", "MPa"].map(str::to_owned);
     plain
         .chain(common)
         .map(|name| (strsim::damerau_levenshtein(&name.to_lowercase(), &text.to_lowercase()), name))
-        .filter(|(distance, name)| *distance <= 1.max(name.chars().count() / 3))
+        .filter(|(distance, name)| {
+            let letters = name.chars().count();
+            *distance <= 1.max(letters / 3) && 2 * distance < letters.max(length)
+        })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
 }
@@ -115,6 +124,15 @@ mod tests {
         assert_eq!(kilogram, (1.0, Dimension::MASS));
         let (pound_force, _) = readings("lbf").next().expect("lbf is known");
         assert!((pound_force * FOOT - 1.355_817_948_331_400_4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn only_units_that_are_near_are_proposed() {
+        assert_eq!(nearest("rmp").as_deref(), Some("rpm"));
+        assert_eq!(nearest("hz").as_deref(), Some("Hz"));
+        for word in ["x", "Q", "xy", "furlong"] {
+            assert_eq!(nearest(word), None, "{word}");
+        }
     }
 
     #[test]

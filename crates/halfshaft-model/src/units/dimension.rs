@@ -74,7 +74,10 @@ impl Dimension {
             (Self::new(0, 1, -2, 0), "a stiffness along a line"),
             (Self::new(-3, 1, 0, 0), "a density"),
         ];
-        named.iter().find(|(dimension, _)| *dimension == self).map(|(_, name)| *name)
+        let name = named.iter().find(|(dimension, _)| *dimension == self).map(|(_, name)| *name);
+        // The higher stiffnesses, down from N·m/rad².
+        let torque = Self { angle: self.angle, ..Self::TORQUE };
+        name.or((self == torque && self.angle < 0).then_some("a torque per power of the angle"))
     }
 }
 
@@ -114,21 +117,7 @@ impl Mul<i8> for Dimension {
 
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(name) = self.name() {
-            return f.write_str(name);
-        }
-        let bases = [("kg", self.mass), ("m", self.length), ("s", self.time), ("rad", self.angle)];
-        let mut first = true;
-        for (symbol, power) in bases.into_iter().filter(|(_, power)| *power != 0) {
-            if !first {
-                f.write_str("·")?;
-            }
-            first = false;
-            f.write_str(symbol)?;
-            if power != 1 {
-                write!(f, "^{power}")?;
-            }
-        }
-        Ok(())
+        // Exponents of base units would tell an engineer nothing.
+        f.write_str(self.name().unwrap_or("no torsional quantity"))
     }
 }

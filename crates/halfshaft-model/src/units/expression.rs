@@ -255,7 +255,10 @@ mod tests {
             assert!(has(text, 1e-4, inertia), "{text}");
         }
         assert!(has("lbf·ft", 1.355_817_948_331_400_4, Dimension::TORQUE));
-        assert!(has("lbf-ft", 1.355_817_948_331_400_4, Dimension::TORQUE));
+        for text in ["lbf-ft", "lb-ft", "lb·ft", "ft-lb"] {
+            assert!(has(text, 1.355_817_948_331_400_4, Dimension::TORQUE), "{text}");
+        }
+        assert!(has("lb·ft²", 0.453_592_37 * 0.304_8 * 0.304_8, inertia));
         assert!(has("N·m/rad³", 1.0, Dimension::TORQUE - Dimension::ANGLE * 3));
         assert!(has("N·m/(rad/s)", 1.0, Dimension::new(2, 1, -1, -1)));
         assert!(has("rev/min", std::f64::consts::PI / 30.0, Dimension::SPEED));

@@ -55,6 +55,12 @@ impl Sign {
         self.allows(from) && self.allows(to) && !(self == Self::NonZero && crosses_zero)
     }
 
+    /// What to write in place of a `value` whose sign is not allowed.
+    pub fn advice(self, value: f64) -> Option<&'static str> {
+        let negative = value < 0.0 && !self.allows(value);
+        negative.then_some("leave the minus sign out")
+    }
+
     /// The rule in words, to follow "must".
     pub fn rule(self) -> &'static str {
         match self {

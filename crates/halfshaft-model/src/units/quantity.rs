@@ -1,9 +1,10 @@
 //! From the text of one quantity to its SI value.
 
 use super::dimension::Dimension;
-use super::expression::{self, UnitError};
+use super::expression::{self, Reading, UnitError};
 use super::kind::QuantityKind;
 use super::number;
+use crate::diagnostic::did_you_mean;
 
 /// Why a text is not the quantity that was asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,9 +45,25 @@ pub enum QuantityError {
 }
 
 impl QuantityError {
+    /// What to write instead where one of some words may stand as well.
+    pub(crate) fn hint_or_word(&self, words: &[&str]) -> Option<String> {
+        match self {
+            Self::NoNumber { text } if !words.is_empty() => {
+                let near = did_you_mean(text, words.iter().copied());
+                let words = words.join("\", \"");
+                near.or_else(|| Some(format!("write a number and a unit, or the word \"{words}\"")))
+            }
+            _ => self.hint(),
+        }
+    }
+
     /// What to write instead.
     pub fn hint(&self) -> Option<String> {
         match self {
+            Self::NoNumber { text } if text.matches(',').count() == 1 => {
+                let right = text.trim().replace(',', ".");
+                Some(format!("decimals are written with a point: {right}"))
+            }
             Self::NoNumber { text } if text.contains(',') => {
                 Some("decimals are written with a point: 0.5".to_owned())
             }
@@ -83,10 +100,30 @@ fn dimension_hint(actual: Dimension, kind: QuantityKind) -> String {
     format!("write it in {suggestions}")
 }
 
-/// The unit part of a quantity text, if it has one.
+/// How speeds of rotation in revolutions per minute are written without a revolution.
+const PER_MINUTE: [&str; 5] = ["1/min", "/min", "min⁻¹", "min^-1", "min-1"];
+
+/// The ratio that "3.5:1" means, read as 3.5 and what follows it.
+fn proportion(first: f64, rest: &str) -> Option<f64> {
+    let (second, rest) = number::split(rest.strip_prefix(':')?)?;
+    rest.trim().is_empty().then_some(first / second)
+}
+
+/// The dimension that was probably meant by a unit of which no reading is `wanted`: one where only
+/// the angle is wrong, or else one that has a name.
+fn probable(readings: &[Reading], wanted: Dimension) -> Dimension {
+    let dimensions = || readings.iter().map(|reading| reading.dimension);
+    dimensions()
+        .find(|dimension| dimension.without_angle() == wanted.without_angle())
+        .or_else(|| dimensions().find(|dimension| dimension.name().is_some()))
+        .or_else(|| dimensions().next())
+        .unwrap_or_default()
+}
+
+/// The unit part of a quantity text, if it has one; the second half of a proportion is none.
 pub(crate) fn unit_of(text: &str) -> Option<&str> {
     let (_, unit) = number::split(text)?;
-    Some(unit.trim()).filter(|unit| !unit.is_empty())
+    Some(unit.trim()).filter(|unit| !unit.is_empty() && !unit.starts_with(':'))
 }
 
 /// Reads `text` as a number with a unit of the given kind and converts it to SI.
@@ -115,11 +152,20 @@ pub fn parse_quantity(text: &str, kind: QuantityKind) -> Result<f64, QuantityErr
             Err(QuantityError::NoUnit { text: owned(), kind })
         };
     }
-    let readings = expression::read(unit).map_err(QuantityError::Unit)?;
+    if let Some(ratio) = proportion(value, unit).filter(|_| kind == QuantityKind::Number) {
+        return if ratio.is_finite() {
+            Ok(ratio)
+        } else {
+            Err(QuantityError::NotFinite { text: owned() })
+        };
+    }
+    let per_minute = kind == QuantityKind::Speed && PER_MINUTE.contains(&unit);
+    let readings = expression::read(if per_minute { "rpm" } else { unit });
+    let readings = readings.map_err(QuantityError::Unit)?;
     let wanted = kind.dimension();
     let fitting = readings.iter().find(|reading| reading.dimension == wanted);
     let Some(reading) = fitting else {
-        let actual = readings.first().map_or(Dimension::NONE, |reading| reading.dimension);
+        let actual = probable(&readings, wanted);
         return Err(QuantityError::WrongDimension { unit: unit.to_owned(), actual, kind });
     };
     let si = value * reading.factor;
@@ -165,6 +211,42 @@ mod tests {
         );
         let error = parse_quantity("25 1/s", QuantityKind::Speed).unwrap_err();
         assert!(error.hint().is_some_and(|hint| hint.contains("angle")));
+    }
+
+    // Source: a first-time user's trial: the same unit with and without points.
+    #[test]
+    fn a_damping_without_its_angle_is_told_so_however_it_is_written() {
+        for text in ["2 N·m·s", "2 Nms", "2 N·ms", "2 J s"] {
+            let error = parse_quantity(text, QuantityKind::Damping).unwrap_err();
+            assert!(error.to_string().contains("is an angular impulse"), "{error}");
+            let hint = error.hint().unwrap_or_default();
+            assert!(hint.starts_with("per which angle? write N·m·s/rad"), "{text}: {hint}");
+        }
+        assert_eq!(si("5 Nms/rad", QuantityKind::Damping), 5.0);
+        let error = parse_quantity("2 kg·s^3", QuantityKind::Torque).unwrap_err();
+        assert!(error.to_string().contains("is no torsional quantity, but"), "{error}");
+        let error = parse_quantity("2 N·m/rad³", QuantityKind::Torque).unwrap_err();
+        assert!(error.to_string().contains("is a torque per power of the angle"), "{error}");
+    }
+
+    // Source: unit definitions: one revolution a minute is 2π rad in 60 s.
+    #[test]
+    fn revolutions_per_minute_may_be_left_unnamed() {
+        for text in ["3000 U/min", "3000 1/min", "3000/min", "3000 min⁻¹", "3000 rpm"] {
+            assert!((si(text, QuantityKind::Speed) - 100.0 * PI).abs() < 1e-12, "{text}");
+        }
+        assert!(parse_quantity("3000 1/s", QuantityKind::Speed).is_err());
+    }
+
+    // Source: by hand.
+    #[test]
+    fn a_ratio_may_be_a_proportion() {
+        assert_eq!(si("3.5:1", QuantityKind::Number), 3.5);
+        assert_eq!(si("-41 : 10", QuantityKind::Number), -4.1);
+        for text in ["3.5:0", "3.5:", "3.5:1:1", "3.5:1 rad"] {
+            assert!(parse_quantity(text, QuantityKind::Number).is_err(), "{text}");
+        }
+        assert!(parse_quantity("3.5:1", QuantityKind::Torque).is_err());
     }
 
     #[test]
