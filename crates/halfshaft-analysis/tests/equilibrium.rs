@@ -249,3 +249,23 @@ proptest! {
         }
     }
 }
+
+/// Stops at the first look.
+struct Stopped;
+
+impl halfshaft_numerics::observer::Observer for Stopped {
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+// Source: the contract: an answer that was stopped says so, and claims no list that it does not have.
+#[test]
+fn a_list_cut_short_is_not_called_complete() {
+    use halfshaft_model::question::Question;
+    let line = driveline(&[]);
+    let answer = halfshaft_analysis::ask(&line, &Question::Static, &Stopped).expect("answers");
+    let halfshaft_results::Answer::Static(result) = answer else { panic!("{answer:?}") };
+    assert!(result.equilibria.is_empty() && !result.complete);
+    assert!(!result.header.termination.is_complete());
+}

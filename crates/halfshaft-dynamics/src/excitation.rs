@@ -119,6 +119,12 @@ impl Excitation {
         orders
     }
 
+    /// Whether a pulse leaves a torque behind.
+    pub fn has_ramp(&self) -> bool {
+        let pulses = self.sources.iter().filter_map(|source| source.pulse.as_ref());
+        pulses.into_iter().any(|pulse| pulse.shape == PulseShape::Ramp)
+    }
+
     /// Times at which pulses begin or end, ascending, each once.
     pub fn breaks(&self) -> Vec<f64> {
         let pulses = self.sources.iter().filter_map(|source| source.pulse.as_ref());

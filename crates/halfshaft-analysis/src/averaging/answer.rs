@@ -107,10 +107,6 @@ fn excited_modes(
     rest: &RestState,
     question: &ResonanceQuestion,
 ) -> Result<Vec<ExcitedMode>, AnalysisError> {
-    let orders = match question.order {
-        Some(order) => vec![order],
-        None => equations.excitation.orders(),
-    };
     let known = equations.excitation.orders();
     if known.is_empty() {
         let reason = "no torque has an amplitude".to_owned();
@@ -122,6 +118,7 @@ fn excited_modes(
             format!("no torque has the order {order}; the orders are {}", known.join(", "));
         return Err(AnalysisError::NoExcitation { reason });
     }
+    let orders = question.order.map_or(known, |order| vec![order]);
     let mut modes = Vec::new();
     let mut deaf = true;
     for order in orders {
@@ -324,9 +321,9 @@ fn say(equations: &EquationsOfMotion, mode: &ModeEquation, result: &mut Resonanc
             "the jumps begin at a swing of {jumps:.4} rad, past the {room:.4} rad that are left to the \
              limit of the law of the {name}: the shaft would give way before it jumps"
         ));
-    } else if let Some((_, z)) =
-        flow.threshold().filter(|(_, z)| jumps.is_infinite() && z.sqrt() > room)
-    {
+    }
+    let threshold = flow.threshold().filter(|_| jumps.is_infinite());
+    if let Some((_, z)) = threshold.filter(|(_, z)| z.sqrt() > room) {
         header.assumptions.push(format!(
             "a jump is out of reach: it would begin at a swing of {:.4} rad, but from rest the law of \
              the {name} carries only to {room:.4} rad, so the shaft would give way first",

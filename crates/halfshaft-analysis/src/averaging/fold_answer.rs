@@ -343,14 +343,11 @@ fn strongest(
     rest: &equilibrium::RestState,
     mode: usize,
 ) -> Result<Option<f64>, AnalysisError> {
-    let mut best: Option<(f64, f64)> = None;
-    for order in equations.excitation.orders() {
-        let f = ModeEquation::new(equations, rest, mode, order)?.f;
-        if best.is_none_or(|(_, strongest)| f > strongest) {
-            best = Some((order, f));
-        }
-    }
-    Ok(best.map(|(order, _)| order))
+    // Of equals the lowest order.
+    let most = drives(equations, rest, mode)?
+        .into_iter()
+        .reduce(|best, next| if next.1 > best.1 { next } else { best });
+    Ok(most.map(|(order, _)| order))
 }
 
 /// The order of which a parameter changes the excitation most over its range; `None` where it
@@ -363,22 +360,27 @@ fn order_of(
     if !question.parameter.address.ends_with("amplitude") {
         return Ok(None);
     }
-    let Ok(loud) = line.with(parameter, question.parameter.to) else { return Ok(None) };
-    let Ok(quiet) = line.with(parameter, 0.0) else { return Ok(None) };
-    let drives = |line: &Driveline| -> Result<Vec<(f64, f64)>, AnalysisError> {
-        let equations = EquationsOfMotion::new(line)?;
+    let at = |value: f64| -> Result<Vec<(f64, f64)>, AnalysisError> {
+        let Ok(line) = line.with(parameter, value) else { return Ok(Vec::new()) };
+        let equations = EquationsOfMotion::new(&line)?;
         let states = equilibrium::find_stable(&equations)?;
-        let Some(rest) = states.primary() else { return Ok(Vec::new()) };
-        let orders = equations.excitation.orders().into_iter();
-        orders
-            .map(|order| Ok((order, ModeEquation::new(&equations, rest, question.mode, order)?.f)))
-            .collect()
+        states.primary().map_or(Ok(Vec::new()), |rest| drives(&equations, rest, question.mode))
     };
-    let without = drives(&quiet)?;
-    let gained = drives(&loud)?.into_iter().map(|(order, f)| {
+    let without = at(0.0)?;
+    let gained = at(question.parameter.to)?.into_iter().map(|(order, f)| {
         let before = without.iter().find(|(other, _)| *other == order).map_or(0.0, |(_, f)| *f);
         (order, (f - before).abs())
     });
     let most = gained.max_by(|a, b| a.1.total_cmp(&b.1));
     Ok(most.filter(|(_, gain)| *gain > 0.0).map(|(order, _)| order))
+}
+
+/// Every order with the amplitude of the excitation that it gives the mode.
+fn drives(
+    equations: &EquationsOfMotion,
+    rest: &equilibrium::RestState,
+    mode: usize,
+) -> Result<Vec<(f64, f64)>, AnalysisError> {
+    let orders = equations.excitation.orders().into_iter();
+    orders.map(|order| Ok((order, ModeEquation::new(equations, rest, mode, order)?.f))).collect()
 }

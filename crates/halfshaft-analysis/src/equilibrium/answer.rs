@@ -9,7 +9,7 @@ use halfshaft_results::{
     StaticResult, Table, Termination,
 };
 
-use super::{Overload, RestStates, Shared, capacity, carries, find, find_stable};
+use super::{Overload, RestStates, Shared, after_ramps, capacity, carries, find, find_stable};
 use crate::error::AnalysisError;
 use crate::header::header;
 use crate::modal::{by_connection, rest_result};
@@ -51,7 +51,7 @@ pub(crate) fn solve(
     if states.primary().is_none() {
         header.warnings.push(overload_message(line, &equations, &states));
     }
-    header.warnings.extend(after_ramps(&equations)?);
+    header.warnings.extend(ramp_warning(&equations)?);
     let load = load_words(&equations);
     for (state, overload) in &gears {
         let Some(overload) = overload.as_ref().filter(|_| !state.exists) else { continue };
@@ -66,8 +66,9 @@ pub(crate) fn solve(
     }
     Ok(StaticResult {
         header,
+        // A list that the user cut short is not complete, whatever is proven of it.
+        complete: states.is_complete() && equilibria.len() == states.states.len(),
         equilibria,
-        complete: states.is_complete(),
         torque_capacity: names().zip(torque_capacity).collect(),
         capacity: names().zip(capacities.iter().copied()).collect(),
         required_torque: required(&equations, &states),
@@ -85,8 +86,8 @@ pub(crate) fn solve(
 }
 
 /// What a ramp that stays does to a line that holds before it.
-fn after_ramps(equations: &EquationsOfMotion) -> Result<Option<String>, AnalysisError> {
-    let Some(after) = super::after_ramps(equations) else { return Ok(None) };
+fn ramp_warning(equations: &EquationsOfMotion) -> Result<Option<String>, AnalysisError> {
+    let Some(after) = after_ramps(equations) else { return Ok(None) };
     let states = find_stable(&after)?;
     let Some(overload) = states.overload.as_ref().filter(|_| states.primary().is_none()) else {
         return Ok(None);

@@ -10,7 +10,7 @@ mod clusters;
 mod running;
 
 use halfshaft_dynamics::{EquationsOfMotion, TorqueLaw};
-use halfshaft_model::elements::{Pulse, PulseShape};
+use halfshaft_model::elements::Pulse;
 use halfshaft_results::{Limit, ShaftCapacity};
 
 use crate::error::AnalysisError;
@@ -181,9 +181,7 @@ fn rest_state(equations: &EquationsOfMotion, combination: &Combination) -> RestS
 
 /// The line with what its ramps leave behind as mean torques; `None` without a ramp.
 pub(crate) fn after_ramps(equations: &EquationsOfMotion) -> Option<EquationsOfMotion> {
-    let ramp = |pulse: &Pulse| pulse.shape == PulseShape::Ramp;
-    let sources = &equations.excitation.sources;
-    if !sources.iter().any(|source| source.pulse.as_ref().is_some_and(ramp)) {
+    if !equations.excitation.has_ramp() {
         return None;
     }
     let mut after = equations.clone();

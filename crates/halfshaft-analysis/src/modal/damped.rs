@@ -6,7 +6,7 @@
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::Complex;
-use halfshaft_numerics::dense::{Matrix, eigen};
+use halfshaft_numerics::dense::{Matrix, dot, eigen};
 
 use super::elastic::ElasticMode;
 use crate::error::{AnalysisError, Doing};
@@ -50,10 +50,6 @@ fn projected(matrix: &Matrix, shapes: &[&[f64]]) -> Matrix {
         .map(|shape| (0..shape.len()).map(|row| dot(matrix.row(row), shape)).collect())
         .collect();
     Matrix::from_fn(shapes.len(), shapes.len(), |i, j| dot(shapes[i], &images[j]))
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn is_diagonal(matrix: &Matrix) -> bool {

@@ -7,7 +7,7 @@
 //! and costs the others no digits.
 
 use halfshaft_dynamics::EquationsOfMotion;
-use halfshaft_numerics::dense::{Matrix, symmetric_eigen};
+use halfshaft_numerics::dense::{Matrix, dot, symmetric_eigen};
 
 use crate::error::{AnalysisError, Doing};
 
@@ -111,8 +111,4 @@ fn householder(mut unit: Vec<f64>) -> Vec<f64> {
     let length = (1.0 + first.abs()).sqrt();
     unit.iter_mut().for_each(|value| *value /= length);
     unit
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

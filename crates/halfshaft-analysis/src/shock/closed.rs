@@ -5,7 +5,7 @@ use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::ShaftMetrics;
 
-use super::full::{self, disturbance_end, has_pulse, has_ramp};
+use super::full::{self, disturbance_end, has_pulse};
 use super::metrics::{Response, between, metrics};
 use super::multiple_scales::{Expansion, MultipleScales};
 use super::single::SingleEquation;
@@ -43,7 +43,7 @@ impl<'s> ClosedMotion<'s> {
         observer: &dyn Observer,
     ) -> Result<Self, AnalysisError> {
         let line = &single.surrogate;
-        if has_ramp(line) {
+        if line.excitation.has_ramp() {
             return Err(AnalysisError::MethodDoesNotFit {
                 method: "multiple-scales",
                 reason: "a ramp shifts the equilibrium about which it expands".to_owned(),
@@ -55,6 +55,10 @@ impl<'s> ClosedMotion<'s> {
         if from > 0.0 {
             let until_free = ShockQuestion { duration: from, step: None, ..question.clone() };
             let run = full::integrate(line, &[x, v, 0.0, 0.0], &until_free, observer)?;
+            if !run.termination.is_complete() {
+                let reached = run.termination.detail.unwrap_or_default();
+                return Err(AnalysisError::EndedEarly { doing: "the pulse was acting", reached });
+            }
             let channel = |quantity| run.recorder.channels().of_connection(0, quantity);
             let (twist, rate) =
                 (channel(ChannelQuantity::Twist), channel(ChannelQuantity::TwistRate));
@@ -63,10 +67,6 @@ impl<'s> ClosedMotion<'s> {
                 turning: run.recorder.turning[twist].clone(),
                 rate_turning: run.recorder.turning[rate].clone(),
             };
-            if !run.termination.is_complete() {
-                let reached = run.termination.detail.unwrap_or_default();
-                return Err(AnalysisError::EndedEarly { doing: "the pulse was acting", reached });
-            }
             if let Some(last) = before.trace.last() {
                 (x, v) = (last.value, last.slope);
             }

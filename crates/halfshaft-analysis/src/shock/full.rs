@@ -1,7 +1,6 @@
 //! A shock by integration of a line: the whole one, or the surrogate of a single equation.
 
 use halfshaft_dynamics::{Active, EquationsOfMotion};
-use halfshaft_model::elements::PulseShape;
 use halfshaft_model::question::{ChannelQuantity, ShockQuestion};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{Named, ShaftMetrics};
@@ -40,12 +39,6 @@ pub(crate) fn has_pulse(equations: &EquationsOfMotion) -> bool {
 pub(crate) fn disturbance_end(equations: &EquationsOfMotion) -> f64 {
     let pulses = equations.excitation.sources.iter().filter_map(|source| source.pulse.as_ref());
     pulses.map(halfshaft_model::elements::Pulse::end_s).fold(0.0, f64::max)
-}
-
-/// Whether a pulse leaves a torque behind.
-pub(crate) fn has_ramp(equations: &EquationsOfMotion) -> bool {
-    let pulses = equations.excitation.sources.iter().filter_map(|source| source.pulse.as_ref());
-    pulses.into_iter().any(|pulse| pulse.shape == PulseShape::Ramp)
 }
 
 /// Twist of every connection when all has settled: the stable equilibrium under the mean

@@ -3,7 +3,7 @@
 use halfshaft_dynamics::{EquationsOfMotion, Motion};
 use halfshaft_model::question::{ChannelQuantity, InitialValue, Start};
 use halfshaft_model::{Driveline, GROUND};
-use halfshaft_numerics::dense::{Matrix, solve};
+use halfshaft_numerics::dense::{Matrix, dot, solve};
 
 use crate::equilibrium::{self, RestStates};
 use crate::error::AnalysisError;
@@ -167,8 +167,4 @@ fn inverse_inertia(motion: &Motion<'_>) -> Weights {
     Weights::Inertia(Matrix::from_fn(n, n, |i, j| {
         (0..n).map(|group| columns[group][i] * columns[group][j] / equations.inertia[group]).sum()
     }))
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -232,9 +232,7 @@ impl<'l> Recorder<'l> {
         let slope = |time| self.sample(dense, time).slopes[channel];
         let Ok(root) = find_root(slope, from, to, settings) else { return };
         let value = self.sample(dense, root.value).values[channel];
-        if self.in_record(root.value) {
-            self.extremes[channel].take(root.value, value);
-        }
+        self.extremes[channel].take(root.value, value);
         if self.followed[channel] {
             self.turning[channel].push(TurningPoint { time: root.value, value });
         }

@@ -4,7 +4,7 @@
 //! goes to the library `faer`, one thread, behind these functions: no other crate sees its types.
 //!
 //! - [`Matrix`]: row-major storage, products, transpose;
-//! - [`solve`] and [`Lu`]: linear systems;
+//! - [`dot`], [`solve`] and [`Lu`]: inner products, linear systems;
 //! - [`symmetric_eigen`]: real eigenvalues with orthonormal vectors;
 //! - [`eigenvalues`], [`eigen`]: eigenvalues of any real matrix, with or without vectors.
 
@@ -15,7 +15,7 @@ mod matrix;
 mod symmetric;
 
 pub use general::{Eigen, eigen, eigenvalues};
-pub use lu::{Lu, solve};
+pub use lu::{Lu, dot, solve};
 pub use matrix::Matrix;
 pub use symmetric::{SymmetricEigen, symmetric_eigen};
 

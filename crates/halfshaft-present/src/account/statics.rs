@@ -57,7 +57,7 @@ fn margins_of(result: &StaticResult, alone: &Named<f64>, shared: &[SharedLoad]) 
         asked: asked.abs(),
         carries: result.capacity.get(shaft).and_then(|capacity| limit(capacity, *asked)),
     };
-    let together = |shared: &SharedLoad| {
+    let of_group = |shared: &SharedLoad| {
         let asked = shared.required_torque?;
         Some(Margin {
             shaft: together(shared),
@@ -65,7 +65,7 @@ fn margins_of(result: &StaticResult, alone: &Named<f64>, shared: &[SharedLoad]) 
             carries: shared.capacity.as_ref().and_then(|capacity| limit(capacity, asked)),
         })
     };
-    alone.iter().map(of).chain(shared.iter().filter_map(together)).collect()
+    alone.iter().map(of).chain(shared.iter().filter_map(of_group)).collect()
 }
 
 /// Names of shafts that share a torque.

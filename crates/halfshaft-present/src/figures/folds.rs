@@ -18,7 +18,7 @@ pub(crate) fn id(result: &FoldsResult) -> String {
 /// The figure of a plane.
 pub(super) fn figure(result: &FoldsResult) -> Figure {
     let curves: Vec<(Vec<f64>, Vec<f64>)> =
-        result.curves.iter().map(|table| positive(table, &result.parameter)).collect();
+        result.curves.iter().map(|table| points(table, &result.parameter)).collect();
     let mut y = column_axis(&result.parameter, &result.parameter_unit);
     y.range = range(result, &curves);
     let mut panel = Panel::new(speed_axis(), y);
@@ -72,23 +72,10 @@ fn caption(result: &FoldsResult) -> String {
     text
 }
 
-/// The part of a curve at positive speeds: far from the resonance the closed form runs on to speeds
-/// that no shaft has.
-fn positive(table: &Table, parameter: &str) -> (Vec<f64>, Vec<f64>) {
+/// The points of a curve.
+fn points(table: &Table, parameter: &str) -> (Vec<f64>, Vec<f64>) {
     let rows = table.values("frequency").iter().zip(table.values(parameter));
-    let mut points: Vec<(f64, f64)> = Vec::new();
-    let mut before: Option<(f64, f64)> = None;
-    for (x, y) in rows.map(|(x, y)| (*x, *y)) {
-        // The curve ends just at speed zero, not at the last sample before it.
-        if let Some((x0, y0)) = before.filter(|(x0, _)| (*x0 > 0.0) != (x > 0.0)) {
-            points.push((0.0, y0 + (y - y0) * x0 / (x0 - x)));
-        }
-        if x > 0.0 {
-            points.push((x, y));
-        }
-        before = Some((x, y));
-    }
-    points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).unzip()
+    rows.map(|(x, y)| (*x, *y)).filter(|(x, y)| x.is_finite() && y.is_finite()).unzip()
 }
 
 /// What lies between folds: within a curve that turns at a cusp, or between two that do not.
