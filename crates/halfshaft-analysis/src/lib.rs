@@ -18,6 +18,8 @@ mod averaging;
 mod check;
 mod equilibrium;
 mod error;
+mod first_harmonic;
+mod harmonic_balance;
 mod header;
 mod modal;
 mod shock;
@@ -52,11 +54,23 @@ pub fn ask(
         }
         Question::Shock(question) => Answer::History(shock::solve(line, question, observer)?),
         Question::Resonance(question) => match question.method {
+            ResonanceMethod::HarmonicBalance => {
+                Answer::Resonance(harmonic_balance::solve(line, question, observer)?)
+            }
+            ResonanceMethod::FirstHarmonic => {
+                Answer::Resonance(first_harmonic::solve(line, question, observer)?)
+            }
             ResonanceMethod::Averaged => {
                 Answer::Resonance(averaging::solve(line, question, observer)?)
             }
         },
         Question::Folds(question) => match question.method {
+            ResonanceMethod::HarmonicBalance => {
+                Answer::Folds(harmonic_balance::solve_folds(line, question, observer)?)
+            }
+            ResonanceMethod::FirstHarmonic => {
+                Answer::Folds(first_harmonic::solve_folds(line, question, observer)?)
+            }
             ResonanceMethod::Averaged => {
                 Answer::Folds(averaging::solve_folds(line, question, observer)?)
             }

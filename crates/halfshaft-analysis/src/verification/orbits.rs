@@ -142,6 +142,7 @@ fn check(
     let flow = mode.slow_flow();
     Ok(Some(VerifiedPoint {
         frequency,
+        channel: format!("{}.twist", equations.connections[mode.reference].name),
         predicted: point.rho(),
         integrated,
         integrated_amplitude: amplitude,
@@ -149,6 +150,7 @@ fn check(
         predicted_stable: flow.is_stable(point),
         integrated_stable: largest < 1.0,
         largest_multiplier: largest,
+        predicted_multiplier: None,
         orbit_residual: orbit.residual / amplitude.max(f64::MIN_POSITIVE),
     }))
 }

@@ -12,8 +12,9 @@ mod values;
 
 pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
-    FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod, ResonanceQuestion,
-    ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Start, Verb,
+    DEFAULT_POINTS, FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod,
+    ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion,
+    StabilityMethod, Start, Verb,
 };
 pub use read::read;
 pub use text::{OptionError, QuestionText};

@@ -116,10 +116,9 @@ impl Reader<'_> {
             method: self.resonance_method(),
             mode: self.count("mode", text.mode.as_deref(), 1, 10_000).unwrap_or(default.mode),
             order: self.excitation_order(),
-            points: self
-                .count("points", text.points.as_deref(), 2, 1_000_000)
-                .unwrap_or(default.points),
+            points: self.count("points", text.points.as_deref(), 2, 1_000_000),
             verify: text.verify,
+            ..default
         }
     }
 
@@ -131,6 +130,15 @@ impl Reader<'_> {
         let order = self.excitation_order();
         let points = self.count("points", text.points.as_deref(), 8, 1_000_000).unwrap_or(200);
         let parameter = self.parameter(order)?;
-        Some(FoldsQuestion { frequency, parameter, method, mode, order, points })
+        Some(FoldsQuestion {
+            frequency,
+            parameter,
+            method,
+            mode,
+            order,
+            points,
+            harmonics: None,
+            tolerance: 1e-6,
+        })
     }
 }

@@ -55,12 +55,6 @@ impl Reader<'_> {
 
     pub(super) fn resonance_method(&mut self) -> ResonanceMethod {
         let text = self.text.method.as_deref();
-        if let Some(planned @ ("harmonic-balance" | "first-harmonic")) = text {
-            let message = format!("{planned} is not available in this version");
-            let hint = "this version answers in closed form: --method averaged";
-            self.errors.push(OptionError::new("method", planned, message, hint));
-            return ResonanceMethod::Averaged;
-        }
         self.choice("method", text, &ResonanceMethod::ALL).unwrap_or_default()
     }
 

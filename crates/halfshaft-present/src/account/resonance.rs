@@ -139,9 +139,9 @@ pub(crate) fn jumps(result: &ResonanceResult) -> Vec<String> {
 fn told(jump: &JumpSpeeds, shaft: &str) -> String {
     let speed =
         format!("{} ({})", quantity(jump.rpm, 5, "rpm"), quantity(jump.frequency, 6, "rad/s"));
-    let before = number(jump.rho_before, 4);
+    let before = number(jump.before, 4);
     let sweep = plain(&jump.sweep);
-    match jump.rho_after {
+    match jump.after {
         Some(after) => format!(
             "Sweeping {sweep}, the twist of the {shaft} jumps at {speed} from ±{before} to ±{} rad.",
             number(after, 4)
