@@ -1,5 +1,21 @@
 //! First harmonic: all responses of a line with one nonlinear connection.
 
+mod amplitude_polynomial;
+mod bracketed;
+mod curve;
+mod drive;
+mod enclosure;
+mod jet;
+mod limbs;
+mod locate;
+mod meshed;
+mod path;
+mod problem;
+mod responses;
+mod rest;
+mod shaft_law;
+mod sheets;
+
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{FoldsQuestion, ResonanceQuestion};
 use halfshaft_numerics::observer::Observer;
