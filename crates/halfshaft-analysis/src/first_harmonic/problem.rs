@@ -35,7 +35,7 @@ pub(super) struct Problem {
     pub(super) law: ShaftLaw,
     /// Mean torques on the groups that the shafts carry, N·m.
     pub(super) forces: Vec<f64>,
-    work: RefCell<(Gathered<Jet>, Gathered<Complex>)>,
+    pub(super) work: RefCell<(Gathered<Jet>, Gathered<Complex>)>,
 }
 
 /// `α_c`, `β`, `γ` at a circular frequency.
@@ -66,13 +66,18 @@ impl Problem {
     /// without a shaft.
     pub(super) fn new(equations: EquationsOfMotion, order: f64) -> Result<Self, AnalysisError> {
         let shaft = nonlinear_shaft(&equations)?;
+        Ok(Self::of_shaft(equations, shaft, order))
+    }
+
+    /// The problem of a line at an order with the given shaft as the nonlinear one.
+    pub(super) fn of_shaft(equations: EquationsOfMotion, shaft: usize, order: f64) -> Self {
         let rest = Rest::new(&equations, shaft);
         let forces = mean_forces(&equations, shaft);
         let statics = rest.statics(&forces).unwrap_or(Statics::default());
         let scale = equations.excitation.scale();
         let law = ShaftLaw::new(&equations.connections[shaft], statics, scale);
         let drive = Drive::new(&equations, order);
-        Ok(Self { shaft, order, rest, drive, law, forces, work: RefCell::default(), equations })
+        Self { shaft, order, rest, drive, law, forces, work: RefCell::default(), equations }
     }
 
     /// What the shaft sees at circular frequency `nu`, with derivatives.
@@ -155,7 +160,7 @@ fn residual(point: &Point<Jet>, a: f64, at: &Balanced, loss: &Loss) -> Residual 
 }
 
 /// The one nonlinear shaft of a line; without any, the first shaft.
-fn nonlinear_shaft(equations: &EquationsOfMotion) -> Result<usize, AnalysisError> {
+pub(super) fn nonlinear_shaft(equations: &EquationsOfMotion) -> Result<usize, AnalysisError> {
     let acts = |connection: &halfshaft_dynamics::Connection| {
         let rubs = connection.friction.is_some_and(|friction| friction.torque_nm != 0.0);
         !connection.law.is_linear() || rubs
