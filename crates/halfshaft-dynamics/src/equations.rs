@@ -5,7 +5,7 @@ use halfshaft_model::{Driveline, End, Network, Topology};
 
 use crate::error::DynamicsError;
 use crate::excitation::Excitation;
-use crate::laws::{PolynomialLaw, TorqueLaw};
+use crate::laws::{Friction, PolynomialLaw, TorqueLaw};
 use crate::rigid::RigidBody;
 
 /// A shaft between two groups (or a group and ground): twist
@@ -20,8 +20,24 @@ pub struct Connection {
     pub to: End,
     /// Torque over twist.
     pub law: TorqueLaw,
-    /// Viscous damping in parallel, N·m·s/rad.
+    /// Viscous damping in parallel, N·m·s/rad; acts at every twist, inside a gap too.
     pub damping: f64,
+    /// Dry friction in parallel.
+    pub friction: Option<Friction>,
+}
+
+impl Connection {
+    /// Torque that depends on the rate of twist `v` (rad/s): viscous and dry friction, N·m.
+    #[inline]
+    pub fn resistance(&self, v: f64) -> f64 {
+        self.damping * v + self.friction.map_or(0.0, |friction| friction.torque(v))
+    }
+
+    /// Derivative of [`Connection::resistance`] by the rate, N·m·s/rad.
+    #[inline]
+    pub fn resistance_slope(&self, v: f64) -> f64 {
+        self.damping + self.friction.map_or(0.0, |friction| friction.slope(v))
+    }
 }
 
 /// A node of the line: it turns at `ratio` times its group.
@@ -37,7 +53,7 @@ pub struct NodePlace {
     pub inertia: f64,
 }
 
-/// `M q'' + D q' + Σ w (c x' + p(x)) = Q`, one coordinate `q` a group.
+/// `M q'' + D q' + Σ w (c x' + r(x') + p(x)) = Q`, one coordinate `q` a group.
 #[derive(Clone, Debug)]
 pub struct EquationsOfMotion {
     /// Inertia of each group, kg·m², at its reference node.
@@ -171,6 +187,7 @@ fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
             to: *to,
             law: TorqueLaw::Polynomial(PolynomialLaw::new(shaft.polynomial())),
             damping: shaft.damping_nm_s_per_rad,
+            friction: None,
         })
         .collect()
 }
