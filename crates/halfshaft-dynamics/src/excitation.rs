@@ -106,8 +106,8 @@ impl Excitation {
                 harmonics: loud.copied().collect(),
                 own_frequency: torque.frequency_rad_s,
                 pulse: torque.pulse.clone(),
-                speed_power: 0.0,
-                reference_speed: 1.0,
+                speed_power: torque.speed_power.unwrap_or(0.0),
+                reference_speed: torque.reference_speed_rad_s.unwrap_or(1.0),
             })
         };
         Self { sources: line.torques().iter().filter_map(source).collect() }

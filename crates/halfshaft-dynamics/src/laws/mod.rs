@@ -1,10 +1,12 @@
 //! Torque laws of connections: torque, its derivatives, its energy and its averages.
 //!
-//! To add a law: a file here, a variant of [`TorqueLaw`], a line in each of its methods.
+//! To add a law: a file here, a variant of [`TorqueLaw`], a line in each of its methods, and its keys
+//! in `of_element`.
 
 mod clearance;
 mod describing;
 mod friction;
+mod of_element;
 mod one_sided;
 mod pieces;
 mod piecewise_linear;
@@ -17,6 +19,7 @@ use halfshaft_numerics::polynomial::Polynomial;
 pub use clearance::ClearanceLaw;
 pub use describing::DescribingFunction;
 pub use friction::{Friction, FrictionDescribingFunction};
+pub(crate) use of_element::{law_of_mesh, law_of_shaft};
 pub use one_sided::OneSidedContact;
 pub use pieces::{Piece, Pieces};
 pub use piecewise_linear::{PiecewiseLinearLaw, Stage};
