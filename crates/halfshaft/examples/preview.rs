@@ -82,14 +82,15 @@ fn pictures(answer: &Answer, folder: &Path) -> Result<(), Box<dyn Error>> {
 /// Every question with settings that show much.
 fn questions() -> Vec<(Verb, QuestionText)> {
     let usual = QuestionText::default;
+    let averaged = || QuestionText { method: Some("averaged".to_owned()), ..usual() };
     vec![
         (Verb::Check, usual()),
         (Verb::Static, usual()),
         (Verb::Modes, usual()),
         (Verb::Simulate, QuestionText { duration: Some("2 s".to_owned()), ..usual() }),
         (Verb::Shock, QuestionText { compare: true, ..usual() }),
-        (Verb::Resonance, QuestionText { verify: true, ..usual() }),
-        (Verb::Folds, QuestionText { parameter: Some("mode.f=1..2000".to_owned()), ..usual() }),
+        (Verb::Resonance, QuestionText { verify: true, ..averaged() }),
+        (Verb::Folds, QuestionText { parameter: Some("mode.f=1..2000".to_owned()), ..averaged() }),
     ]
 }
 
