@@ -11,7 +11,8 @@ impl EquationsOfMotion {
         self.assemble(|index| self.connections[index].law.stiffness(twists[index]))
     }
 
-    /// Damping `Σ w c wᵀ` plus the dampers to ground, groups by groups, N·m·s/rad.
+    /// Viscous damping `Σ w c wᵀ` plus the dampers to ground, groups by groups, N·m·s/rad. Dry
+    /// friction has no damping constant of its own and is left out.
     pub fn damping_matrix(&self) -> Matrix {
         let mut matrix = self.assemble(|index| self.connections[index].damping);
         for (group, damping) in self.ground_damping.iter().enumerate() {

@@ -73,7 +73,9 @@ impl ModeEquation {
         let scale = shape.twists[reference];
         let twist_per_x: Vec<f64> = shape.twists.iter().map(|twist| twist / scale).collect();
         let inertia = 1.0 / (scale * scale);
-        let (f, phase) = drive(equations, shape, scale, order);
+        // Amplitudes that grow with the speed are taken at resonance.
+        let frequency = shape.eigenvalue.sqrt() / order;
+        let (f, phase) = drive(equations, shape, scale, order, frequency);
         Ok(Self {
             mode,
             order,
@@ -144,8 +146,14 @@ fn reference(equations: &EquationsOfMotion, rest: &RestState, mode: &ElasticMode
 }
 
 /// Amplitude and phase of the modal excitation.
-fn drive(equations: &EquationsOfMotion, mode: &ElasticMode, scale: f64, order: f64) -> (f64, f64) {
-    let torques = equations.excitation.harmonic(equations.groups(), order);
+fn drive(
+    equations: &EquationsOfMotion,
+    mode: &ElasticMode,
+    scale: f64,
+    order: f64,
+    frequency: f64,
+) -> (f64, f64) {
+    let torques = equations.excitation.harmonic(equations.groups(), order, frequency);
     let (re, im) = torques
         .iter()
         .zip(&mode.shape)

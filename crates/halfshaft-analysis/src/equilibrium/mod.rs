@@ -9,6 +9,7 @@ mod capacity;
 mod clusters;
 mod running;
 
+use halfshaft_dynamics::laws::PolynomialLaw;
 use halfshaft_dynamics::{EquationsOfMotion, TorqueLaw};
 use halfshaft_model::elements::Pulse;
 use halfshaft_results::{Limit, ShaftCapacity};
@@ -212,9 +213,7 @@ pub(crate) fn lowest_eigenvalue(
     Ok(eigenvalues.first().copied().unwrap_or(0.0))
 }
 
-/// The law of a connection as a polynomial.
-pub(crate) fn polynomial_of(law: &TorqueLaw) -> &halfshaft_dynamics::laws::PolynomialLaw {
-    match law {
-        TorqueLaw::Polynomial(law) => law,
-    }
+/// The law of a connection as a polynomial; one without torque where it is of another kind.
+pub(crate) fn polynomial_of(law: &TorqueLaw) -> PolynomialLaw {
+    law.polynomial().cloned().unwrap_or_else(|| PolynomialLaw::new([0.0; PolynomialLaw::COUNT]))
 }

@@ -65,7 +65,7 @@ pub(crate) fn reduce(
     let connection = 0;
     let shaft = &equations.connections[connection];
     let (static_twist, static_torque) = (rest.twists[connection], rest.torques[connection]);
-    let restoring = restoring(polynomial_of(&shaft.law), static_twist);
+    let restoring = restoring(&polynomial_of(&shaft.law), static_twist);
     // Doubling all torques is halving the inertia and what acts on it from outside.
     let (inertia, gain) = match equation {
         ShockEquation::Clamped => (ends.load, 1.0),
@@ -205,6 +205,7 @@ fn surrogate(
             to: None,
             law: TorqueLaw::Polynomial(PolynomialLaw::new(restoring)),
             damping: shaft.damping,
+            friction: None,
         }],
         nodes: vec![NodePlace {
             name: equations.nodes[node].name.clone(),

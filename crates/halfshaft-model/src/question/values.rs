@@ -222,5 +222,5 @@ impl Reader<'_> {
 #[expect(clippy::cast_precision_loss, reason = "files are too small for so many elements")]
 fn columns_of(line: &Driveline) -> f64 {
     let (topology, _) = Topology::with_contradictions(line);
-    (1 + 3 * line.shafts().len() + 2 * topology.nodes.len()) as f64
+    (1 + 3 * line.connection_names().count() + 2 * topology.nodes.len()) as f64
 }
