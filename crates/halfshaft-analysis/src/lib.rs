@@ -20,6 +20,7 @@ mod equilibrium;
 mod error;
 mod header;
 mod modal;
+mod polynomials_only;
 mod shock;
 mod time_response;
 mod verification;
