@@ -25,7 +25,7 @@ pub(crate) fn solve(
     };
     let state = choose_equilibrium(line, &equations, &states, question.equilibrium)?;
     let undamped = ElasticSpace::new(&equations).modes(&equations, &state.twists)?;
-    let pairs = damped(&equations, &undamped)?;
+    let pairs = damped(&equations, &undamped, &state.twists)?;
     let mut modes = Vec::with_capacity(equations.groups());
     if let (Some(rigid), Some(pair)) = (&equations.rigid, pairs.rigid) {
         modes.push(rigid_mode(&equations, &rigid.speeds, pair));

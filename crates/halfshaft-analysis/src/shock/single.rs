@@ -207,6 +207,7 @@ fn surrogate(
             to: None,
             law: TorqueLaw::Polynomial(PolynomialLaw::new(restoring)),
             damping: shaft.damping,
+            damps_in_gap: true,
             friction: None,
         }],
         nodes: vec![NodePlace {
