@@ -81,6 +81,17 @@ impl TorqueLaw {
         }
     }
 
+    /// Whether the connection is in contact at twist `x` (rad): outside a gap, beyond where a stop
+    /// touches; laws without free play always are.
+    #[inline]
+    pub fn in_contact(&self, x: f64) -> bool {
+        match self {
+            Self::Clearance(law) => x.abs() > law.half_gap(),
+            Self::OneSided(law) => x > law.contact_twist(),
+            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) => true,
+        }
+    }
+
     /// Potential energy at twist `x` (rad) above the untwisted state, J.
     #[inline]
     pub fn energy(&self, x: f64) -> f64 {
