@@ -22,6 +22,7 @@ mod first_harmonic;
 mod harmonic_balance;
 mod header;
 mod modal;
+mod polynomials_only;
 mod shock;
 mod time_response;
 mod verification;

@@ -354,7 +354,7 @@ impl halfshaft_numerics::observer::Observer for Impatient {
 #[test]
 fn a_stopped_verification_says_how_far_it_came() {
     let line = oscillator(&[]);
-    let text = QuestionText { verify: true, ..Default::default() };
+    let text = QuestionText { verify: true, method: some("averaged"), ..Default::default() };
     let question = common::question(&line, Verb::Resonance, &text);
     let answer = halfshaft_analysis::ask(&line, &question, &Impatient(0.into())).expect("answers");
     let termination = &answer.header().termination;
@@ -460,7 +460,8 @@ fn an_order_of_two_halves_the_speed() {
 #[test]
 fn what_cannot_be_averaged_is_said_by_name() {
     let ask = |line: &halfshaft_model::Driveline, text: &QuestionText| {
-        try_ask(line, Verb::Resonance, text).expect_err("cannot be answered")
+        let text = QuestionText { method: some("averaged"), ..text.clone() };
+        try_ask(line, Verb::Resonance, &text).expect_err("cannot be answered")
     };
     let silent = oscillator(&["excitation.amplitude=0"]);
     let error = ask(&silent, &QuestionText::default());

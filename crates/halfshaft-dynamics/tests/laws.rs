@@ -210,8 +210,10 @@ proptest! {
             let size = 1.0 + law.torque(x).abs();
             prop_assert!((pieces.torque(x) - law.torque(x)).abs() < 1e-11 * size);
             prop_assert!((pieces.stiffness(x) - law.stiffness(x)).abs() < 1e-9 * (1.0 + size));
-            let turned = pieces.turned(-1.0);
-            prop_assert!((turned.torque(-x) + law.torque(x)).abs() < 1e-11 * size);
+            for a in [-1.0, 2.5, -0.4] {
+                let found = pieces.stretched(a).torque(x / a);
+                prop_assert!((found - a * law.torque(x)).abs() < 1e-10 * size);
+            }
             for other in every_law() {
                 let sum = pieces.add(&other.pieces()).torque(x);
                 let exact = law.torque(x) + other.torque(x);

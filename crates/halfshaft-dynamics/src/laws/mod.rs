@@ -1,10 +1,12 @@
 //! Torque laws of connections: torque, its derivatives, its energy and its averages.
 //!
-//! To add a law: a file here, a variant of [`TorqueLaw`], a line in each of its methods.
+//! To add a law: a file here, a variant of [`TorqueLaw`], a line in each of its methods, and its keys
+//! in `of_element`.
 
 mod clearance;
 mod describing;
 mod friction;
+mod of_element;
 mod one_sided;
 mod pieces;
 mod piecewise_linear;
@@ -17,6 +19,7 @@ use halfshaft_numerics::polynomial::Polynomial;
 pub use clearance::ClearanceLaw;
 pub use describing::DescribingFunction;
 pub use friction::{Friction, FrictionDescribingFunction};
+pub(crate) use of_element::{law_of_mesh, law_of_shaft};
 pub use one_sided::OneSidedContact;
 pub use pieces::{Piece, Pieces};
 pub use piecewise_linear::{PiecewiseLinearLaw, Stage};
@@ -75,6 +78,17 @@ impl TorqueLaw {
             Self::PiecewiseLinear(_) => 0.0,
             Self::OneSided(law) => law.curvature(x),
             Self::Table(law) => law.curvature(x),
+        }
+    }
+
+    /// Whether the connection is in contact at twist `x` (rad): outside a gap, beyond where a stop
+    /// touches; laws without free play always are.
+    #[inline]
+    pub fn in_contact(&self, x: f64) -> bool {
+        match self {
+            Self::Clearance(law) => x.abs() > law.half_gap(),
+            Self::OneSided(law) => x > law.contact_twist(),
+            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) => true,
         }
     }
 

@@ -4,8 +4,9 @@
 //! into a [`Question`] in SI or into every mistake at once. The analyses take it from there.
 
 mod channel;
-mod fold_axis;
 mod kinds;
+mod parameter_axis;
+mod periodic;
 mod read;
 mod text;
 mod values;
