@@ -99,11 +99,11 @@ impl FoldPath<'_> {
                 return None;
             }
             spot = self.moved(&spot, &step);
-            if length <= 1e-14 || (length <= 1e-10 && length >= 0.2 * last) {
+            if length <= 1e-15 || (length <= 1e-12 && length >= 0.5 * last) {
                 return Some((self.fold(&spot, towards)?, iteration + 1));
             }
-            // Differences cost two lines each: once more when the spot has moved far.
-            if iteration == 0 && length > 1e-3 {
+            // Differences cost two lines each: only while the spot moves far.
+            if length > 1e-5 {
                 slopes = self.family.by_parameter(&spot)?;
             }
             last = length;

@@ -65,13 +65,15 @@ impl Path<'_> {
 
     fn filled(&self, point: &Point<Jet>, twist: Complex, a: f64, at: &Balanced) -> Equations {
         let Point { nu, alpha, beta, gamma } = *point;
-        let loss = self.problem.law.loss(nu * a);
-        let gain = Complex::new(at.force / a, loss.torque / a);
+        let resistance = self.problem.law.resistance(nu, a, at);
+        let gain = Complex::new(at.force / a, resistance.torque / a);
         let whole = alpha.value + beta.value * gain;
-        let slopes = Complex::new(at.slope, nu * loss.first);
+        let slopes = Complex::new(at.slope, resistance.by_a);
         let bend = beta.value * (slopes - gain).scaled(1.0 / a);
         let value = whole * twist - gamma.value;
-        let by_nu = (alpha.first + beta.first * gain + beta.value * Complex::new(0.0, loss.first))
+        let by_nu = (alpha.first
+            + beta.first * gain
+            + beta.value * Complex::new(0.0, resistance.by_nu / a))
             * twist
             - gamma.first;
         // a moves by Re(conj(X) dX)/a.
