@@ -345,3 +345,375 @@ fn samples_of_backlash_under_load_satisfy_the_equations() {
     assert!(most - least > 1e-3, "the mean moves: {least} {most}");
     assert!(result.header.warnings.is_empty(), "{:?}", result.header.warnings);
 }
+
+/// A line of two inertias under a mean torque with one shaft of the given law, the load held by a soft
+/// linear shaft.
+fn loaded(law: &str, mean: f64, amplitude: f64) -> Driveline {
+    line_of(
+        &format!(
+            "format = 1\nname = \"loaded\"\n\
+             [[inertia]]\nname = \"motor\"\ninertia = 0.02\n\
+             [[inertia]]\nname = \"load\"\ninertia = 0.3\ndamping = 0.02\n\
+             [[shaft]]\nname = \"coupling\"\nfrom = \"motor\"\nto = \"load\"\n{law}\n\
+             [[shaft]]\nname = \"support\"\nfrom = \"load\"\nto = \"ground\"\n\
+             stiffness = 150.0\ndamping = 0.4\n\
+             [[torque]]\nname = \"drive\"\non = \"motor\"\nmean = {mean:?}\namplitude = {amplitude:?}\n"
+        ),
+        &[],
+    )
+}
+
+/// Laws of every kind for that line.
+const LAWS: [(&str, &str, f64, f64); 8] = [
+    ("polynomial", "stiffness = 900.0\nquadratic = 1500.0\ncubic = -4000.0\ndamping = 0.25", 20.0, 6.0),
+    ("softening", "stiffness = 900.0\ncubic = -6000.0\nquintic = 9000.0\ndamping = 0.2", 25.0, 8.0),
+    ("backlash", "stiffness = 900.0\nclearance = 0.02\ndamping = 0.2", 3.0, 6.0),
+    ("unloaded backlash", "stiffness = 900.0\nclearance = 0.02\ndamping = 0.2", 0.0, 4.0),
+    (
+        "stages",
+        "stages = [ { until = 0.01, stiffness = 200.0 }, { until = 0.04, stiffness = 900.0 }, \
+         { stiffness = 4000.0 } ]\ndamping = 0.25",
+        4.0,
+        9.0,
+    ),
+    ("friction", "stiffness = 900.0\nfriction = 2.0\ndamping = 0.1", 5.0, 12.0),
+    (
+        "table",
+        "table = { twist = [-0.1, -0.03, 0.0, 0.02, 0.08], torque = [-90.0, -20.0, 0.0, 8.0, 80.0] }\n\
+         damping = 0.25",
+        10.0,
+        7.0,
+    ),
+    (
+        "damped contact",
+        "stiffness = 900.0\nclearance = 0.02\ndamping = 0.25\ndamping_acts = \"in contact\"",
+        3.0,
+        6.0,
+    ),
+];
+
+// Source: numerical integrals of each law and dense elimination of the line, and statics: the mean
+// torque of the shaft is the mean torque of the drive.
+#[test]
+fn samples_under_every_law_satisfy_the_equations() {
+    for (name, law, mean, amplitude) in LAWS {
+        let line = loaded(law, mean, amplitude);
+        let result = respond(&line, &text("60..420", "150"));
+        // Midpoint sums over kinks and steep friction are good for six digits.
+        check_samples(&line, &result, "coupling", 1.0, 2e-6);
+        for branch in &result.branches {
+            let carried = branch.values("coupling.torque.mean");
+            assert!(carried.iter().all(|t| (t - mean).abs() < 1e-9 * (1.0 + mean)), "{name}");
+        }
+    }
+}
+
+/// Amplitudes at which the equation `|D a + F + i S| = |P|` changes sign along the means in balance
+/// that are held, on a fine scan; `D`, `P` of the line `loaded`, in closed form.
+fn scanned(line: &Driveline, mean_torque: f64, drive: f64, w: f64, highest: f64) -> Vec<f64> {
+    let equations = EquationsOfMotion::new(line).expect("a sound line");
+    let connection = &equations.connections[equations.connection("coupling").expect("there")];
+    let motor = Complex::from(-w * w * 0.02);
+    let load = Complex::new(150.0 - w * w * 0.3, w * (0.02 + 0.4));
+    let d = motor * load / (motor + load);
+    let p = Complex::from(drive) * load / (motor + load);
+    let damping = if connection.damps_in_gap { connection.damping } else { 0.0 };
+    let excess = |a: f64, mean: f64| {
+        let force = connection.law.describing_function(mean, a).gain * a;
+        let rubbing = connection.friction.map_or(0.0, |friction| {
+            friction.describing_function(w * a).damping * w * a
+        });
+        (d.scaled(a) + Complex::new(force, w * damping * a + rubbing)).modulus() - p.modulus()
+    };
+    // Held means by scan and bisection.
+    let imbalance = |a: f64, mean: f64| {
+        let of = connection.law.describing_function(mean, a);
+        (of.mean_torque - mean_torque, of.mean_by_mean)
+    };
+    let held = |a: f64| -> Vec<f64> {
+        let count = 600;
+        let at = |k: i32| 0.9 * f64::from(k) / f64::from(count);
+        let mut means = Vec::new();
+        for k in -count..count {
+            let (mut low, mut high) = (at(k), at(k + 1));
+            if imbalance(a, low).0 < 0.0 && imbalance(a, high).0 >= 0.0 {
+                for _ in 0..60 {
+                    let middle = f64::midpoint(low, high);
+                    if imbalance(a, middle).0 < 0.0 { low = middle } else { high = middle }
+                }
+                means.push(low);
+            }
+        }
+        means
+    };
+    let count = 4000;
+    let mut found = Vec::new();
+    let mut last: Vec<(f64, f64)> = Vec::new();
+    for k in 1..=count {
+        let a = highest * f64::from(k) / f64::from(count);
+        let now: Vec<(f64, f64)> = held(a).into_iter().map(|m| (m, excess(a, m))).collect();
+        if now.len() == last.len() {
+            for (before, after) in last.iter().zip(&now) {
+                if (before.1 < 0.0) != (after.1 < 0.0) {
+                    found.push(a);
+                }
+            }
+        }
+        last = now;
+    }
+    found
+}
+
+// Source: the scan above, for laws whose mean moves.
+#[test]
+fn all_responses_under_every_law_are_those_of_a_scan() {
+    let mut several = 0;
+    for (name, law, mean, amplitude) in LAWS {
+        // Inside the gap, without load, nothing decides the mean; the scan cannot tell either.
+        if name == "unloaded backlash" {
+            continue;
+        }
+        let line = loaded(law, mean, amplitude);
+        let result = respond(&line, &text("60..420", "7"));
+        for step in 0..7 {
+            let w = 60.0 + 360.0 * (f64::from(step) / 6.0);
+            let found = amplitudes_at(&result, "coupling", w);
+            let largest = found.iter().fold(0.01_f64, |most, a| most.max(*a));
+            let scanned = scanned(&line, mean, amplitude, w, 1.5 * largest);
+            assert_eq!(found.len(), scanned.len(), "{name} at {w}: {found:?} {scanned:?}");
+            for (a, b) in found.iter().zip(&scanned) {
+                assert!((a - b).abs() < 1e-3 * largest, "{name} at {w}: {a} {b}");
+            }
+            several += usize::from(found.len() > 1);
+        }
+    }
+    assert!(several > 2, "{several} speeds with several responses");
+}
+
+// Source: the reduced oscillator of the free two-mass line: inertia `J1 J2/(J1 + J2)`, excitation
+// `T1 J2/(J1 + J2)`, with the gear's ratio squared into the inertia.
+#[test]
+fn a_free_geared_line_is_the_oscillator_of_its_twist() {
+    let (ratio, j1, j2) = (5.71, 0.328, 81.6);
+    let text_of = |cubic: f64| {
+        format!(
+            "format = 1\nname = \"two masses\"\n\
+             [[inertia]]\nname = \"engine\"\ninertia = {j1:?}\n\
+             [[gear]]\nname = \"gear\"\ninput = \"engine\"\noutput = \"flange\"\nratio = {ratio:?}\n\
+             [[inertia]]\nname = \"vehicle\"\ninertia = {j2:?}\n\
+             [[shaft]]\nname = \"half-shaft\"\nfrom = \"flange\"\nto = \"vehicle\"\n\
+             stiffness = 6420.0\ncubic = {cubic:?}\ndamping = 3.0\n\
+             [[torque]]\nname = \"drive\"\non = \"engine\"\namplitude = 30.0\norder = 2\n"
+        )
+    };
+    let free = line_of(&text_of(9000.0), &[]);
+    let up = j1 * ratio * ratio;
+    let inertia = up * j2 / (up + j2);
+    let oscillator = line_of(
+        &format!(
+            "format = 1\nname = \"oscillator\"\n\
+             [[inertia]]\nname = \"mass\"\ninertia = {inertia:?}\n\
+             [[shaft]]\nname = \"half-shaft\"\nfrom = \"mass\"\nto = \"ground\"\n\
+             stiffness = 6420.0\ncubic = 9000.0\ndamping = 3.0\n\
+             [[torque]]\nname = \"drive\"\non = \"mass\"\namplitude = {:?}\norder = 2\n",
+            30.0 * ratio * j2 / (up + j2)
+        ),
+        &[],
+    );
+    let asked = text("10..25", "50");
+    let (a, b) = (folds(&respond(&free, &asked), "half-shaft"), folds(&respond(&oscillator, &asked), "half-shaft"));
+    assert_eq!((a.len(), b.len()), (2, 2));
+    for (one, other) in a.iter().zip(&b) {
+        assert_close(one.0, other.0, 1e-12);
+        assert_close(one.1, other.1, 1e-9);
+    }
+}
+
+const MESHED: &str = r#"
+format = 1
+name = "Torque split"
+[[inertia]]
+name = "a"
+inertia = 0.1
+[[inertia]]
+name = "b"
+inertia = 0.2
+[[inertia]]
+name = "c"
+inertia = 0.15
+[[inertia]]
+name = "d"
+inertia = 0.4
+[[shaft]]
+name = "ab"
+from = "a"
+to = "b"
+stiffness = 500.0
+damping = 0.1
+[[shaft]]
+name = "bc"
+from = "b"
+to = "c"
+stiffness = 700.0
+damping = 0.1
+[[shaft]]
+name = "ca"
+from = "c"
+to = "a"
+stiffness = 300.0
+cubic = 60000.0
+quadratic = 2000.0
+damping = 0.1
+[[shaft]]
+name = "cd"
+from = "c"
+to = "d"
+stiffness = 400.0
+damping = 0.1
+[[torque]]
+name = "drive"
+on = "a"
+mean = 10.0
+amplitude = 12.0
+[[torque]]
+name = "load"
+on = "d"
+mean = "balance"
+"#;
+
+// Source: numerical integrals and dense elimination, and the statics of the loop: the mean torques of
+// the two ways share the load, and their mean twists agree.
+#[test]
+fn samples_of_a_line_with_a_loop_satisfy_the_equations() {
+    let line = line_of(MESHED, &[]);
+    let result = respond(&line, &text("30..160", "200"));
+    check_samples(&line, &result, "ca", 1.0, 1e-7);
+    let branch = &result.branches[0];
+    let mean = |name: &str| branch.values(name);
+    for row in 0..mean("frequency").len() {
+        let (ab, ca) = (mean("ab.torque.mean")[row], mean("ca.torque.mean")[row]);
+        assert!((ab - ca - 10.0).abs() < 1e-8, "{ab} {ca}");
+        let around: f64 =
+            ["ab", "bc", "ca"].iter().map(|s| mean(&format!("{s}.twist.mean"))[row]).sum();
+        assert!(around.abs() < 1e-9, "{around}");
+    }
+}
+
+// Source: dense elimination of the whole chain of 60.
+#[test]
+fn a_long_chain_condensed_equals_the_whole() {
+    let mut model = common::chain(&[1.0; 60], &[1000.0; 59], Some(1000.0), 0.4);
+    model = model.replace(
+        "name = \"s30\"\nfrom = \"n30\"\nto = \"n31\"\n",
+        "name = \"s30\"\nfrom = \"n30\"\nto = \"n31\"\ncubic = 200000.0\n",
+    );
+    model += "[[torque]]\nname = \"drive\"\non = \"n59\"\namplitude = 20.0\n";
+    let line = line_of(&model, &[]);
+    let result = respond(&line, &text("0.5..6", "120"));
+    check_samples(&line, &result, "s30", 1.0, 1e-10);
+    assert!(result.header.warnings.is_empty(), "{:?}", result.header.warnings);
+}
+
+// Source: numerical integrals and dense elimination, with the torque at each speed.
+#[test]
+fn torques_that_grow_with_speed_satisfy_the_equations() {
+    let model = GEARED.replace(
+        "amplitude = 60.0\n",
+        "amplitude = 60.0\nspeed_power = 2\nreference_speed = 30.0\n",
+    );
+    let line = line_of(&model, &[]);
+    let result = respond(&line, &text("20..60", "150"));
+    check_samples(&line, &result, "half-shaft", 2.0, 1e-8);
+}
+
+// Source: one harmonic of the free Duffing oscillator, `W = sqrt(1 + 3 s/4)` with `s = g A²`; and the
+// peak of the response, which lies on it but for damping: with `c² W²` the amplitude is greatest where
+// `k - W² + 3/4 g a² = -c²/2`.
+#[test]
+fn backbone_and_peak_of_the_duffing_oscillator() {
+    let (c, g) = (0.05, 0.1);
+    let result = respond(&duffing(c, 1.0, g, 0.18), &text("0.7..1.6", "100"));
+    let backbone = &result.backbones[0];
+    assert!(backbone.rows() > 50);
+    let rows = backbone.values("frequency").iter().zip(backbone.values("spring.twist.harmonic1"));
+    for (w, a) in rows {
+        assert_close(*w, (1.0 + 0.75 * g * a * a).sqrt(), 1e-12);
+    }
+    let peak = &result.peaks[0];
+    let (w, a) = (peak["frequency"], peak["spring.twist.harmonic1"]);
+    assert_close(1.0 - w * w + 0.75 * g * a * a, -c * c / 2.0, 1e-9);
+    let all = result.branches[0].values("spring.twist.harmonic1");
+    assert!(all.iter().all(|other| *other <= a));
+}
+
+// Source: the exact response of a linear line, by dense elimination; a law without curvature has one
+// response.
+#[test]
+fn a_linear_line_has_its_linear_response() {
+    let line = line_of(GEARED, &["half-shaft.cubic=0"]);
+    let result = respond(&line, &text("10..60", "100"));
+    assert_eq!(result.branches.len(), 1);
+    check_samples(&line, &result, "half-shaft", 2.0, 1e-9);
+    assert!(folds(&result, "half-shaft").is_empty());
+}
+
+// Source: the two branches of the undamped Duffing oscillator, `(k - W² + 3/4 g a²) a = ± P`.
+#[test]
+fn without_damping_both_branches_are_followed() {
+    let (g, p) = (0.1, 0.18);
+    let result = respond(&duffing(0.0, 1.0, g, p), &text("0.5..1.5", "100"));
+    let mut phases = [0, 0];
+    for branch in &result.branches {
+        let rows = branch.values("frequency").iter().zip(branch.values("spring.twist.harmonic1"));
+        for (w, a) in rows {
+            let left = (1.0 - w * w + 0.75 * g * a * a) * a / p;
+            assert!((left.abs() - 1.0).abs() < 1e-9, "{w} {a}");
+            phases[usize::from(left < 0.0)] += 1;
+        }
+        assert!(branch.values("stable").iter().all(|stable| *stable == 0.0));
+    }
+    assert!(phases[0] > 100 && phases[1] > 50, "{phases:?}");
+    assert!(result.header.warnings.iter().any(|w| w.contains("damping")));
+}
+
+// Source: the contract of errors: refused by name, with what is wrong.
+#[test]
+fn lines_that_do_not_fit_are_refused_by_name() {
+    let two = line_of(GEARED, &["tyre.cubic=1000"]);
+    let asked = QuestionText { frequency: None, ..text("", "100") };
+    match try_ask(&two, Verb::Resonance, &asked) {
+        Err(AnalysisError::MethodDoesNotFit { method, reason }) => {
+            assert_eq!(method, "first-harmonic");
+            assert!(reason.contains("half-shaft") && reason.contains("tyre"), "{reason}");
+        }
+        other => panic!("{other:?}"),
+    }
+    let silent = line_of(GEARED, &["engine torque.amplitude=0", "road.amplitude=0"]);
+    assert!(matches!(
+        try_ask(&silent, Verb::Resonance, &asked),
+        Err(AnalysisError::NoExcitation { .. })
+    ));
+    let other = QuestionText { order: some("3"), ..asked };
+    let line = line_of(GEARED, &[]);
+    assert!(matches!(
+        try_ask(&line, Verb::Resonance, &other),
+        Err(AnalysisError::NoExcitation { .. })
+    ));
+}
+
+// Source: the same responses from other numbers of listed speeds: branches do not depend on them.
+#[test]
+fn the_embedded_models_are_answered_without_any_option() {
+    for line in [driveline(&[]), oscillator(&["excitation.amplitude=15"])] {
+        let asked = |points: &str| QuestionText { frequency: None, ..text("", points) };
+        let (few, many) = (respond(&line, &asked("50")), respond(&line, &asked("1000")));
+        assert_eq!(few.branches.len(), many.branches.len());
+        let shaft = if line.name().contains("oscillator") { "spring" } else { "half-shaft" };
+        let (a, b) = (folds(&few, shaft), folds(&many, shaft));
+        assert_eq!(a.len(), b.len());
+        for (one, other) in a.iter().zip(&b) {
+            assert_close(one.0, other.0, 1e-12);
+        }
+        assert!(few.branches.iter().all(|branch: &Branch| branch.values("frequency").len() >= 50));
+    }
+}
