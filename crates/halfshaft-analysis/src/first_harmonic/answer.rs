@@ -49,17 +49,19 @@ pub(crate) fn solve(
         (None, Some(resonance)) => setting::window(&problem, &finder, resonance),
         (None, None) => return Err(setting::no_resonance()),
     };
+    let problem = setting::shaft(problem, window);
+    let finder = Finder::new(&problem);
     setting::reaches(&problem, window)?;
     let points = question.points.unwrap_or(DEFAULT_POINTS);
     let nus = births::with_births(&problem, &finder, even(window.0, window.1, points));
     observer.progress(0.1);
-    let grid = Grid::new(&problem, &finder, nus.clone());
+    let grid = Grid::new(&problem, &finder, nus.clone(), &|| observer.cancelled());
     observer.progress(0.4);
     let curve = follow(&problem, grid, &|| observer.cancelled());
     observer.progress(0.8);
     let mut header = header(line, &Question::Resonance(question.clone()));
     told::resonance(&problem, &curve, question.order.is_none(), &mut header);
-    if curve.cancelled {
+    if curve.cancelled || observer.cancelled() {
         let detail = "not all responses were followed".to_owned();
         header.termination = Termination::early(Reason::Cancelled, detail);
     }

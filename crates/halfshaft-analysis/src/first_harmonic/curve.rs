@@ -80,14 +80,24 @@ const MOST_SAMPLES: usize = 60_000;
 
 impl Grid {
     /// All responses at ascending frequencies.
-    pub(super) fn new(problem: &Problem, finder: &Finder, nus: Vec<f64>) -> Self {
+    /// Ends early where that is asked for.
+    pub(super) fn new(
+        problem: &Problem,
+        finder: &Finder,
+        mut nus: Vec<f64>,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Self {
         let (mut rows, mut open) = (Vec::with_capacity(nus.len()), 0);
         for nu in &nus {
+            if cancelled() {
+                break;
+            }
             let found = finder.all(problem, *nu);
             open += found.open;
             let known = |response| Known { response, passed: false };
             rows.push(found.list.into_iter().map(known).collect());
         }
+        nus.truncate(rows.len());
         Self { nus, rows, open }
     }
 

@@ -17,6 +17,8 @@ pub(super) struct Family<'l> {
     line: &'l Driveline,
     parameter: Parameter,
     pub(super) order: f64,
+    /// Whether the order was chosen as the one that drives the shaft most.
+    pub(super) strongest: bool,
     shaft: usize,
     /// The resonance at the model's own values, where no range of speeds is given.
     pub(super) resonance: Option<Resonance>,
@@ -69,7 +71,9 @@ impl<'l> Family<'l> {
             Some(_) => None,
             None => Some(setting::resonance(&equations, shaft, question.mode)?),
         };
-        let order = match (question.order, order_of(line, &parameter)) {
+        let own = order_of(line, &parameter);
+        let strongest = question.order.is_none() && own.is_none();
+        let order = match (question.order, own) {
             (Some(order), _) => setting::order(&equations, Some(order), None)?,
             // The amplitude of a torque bends the response of its own order.
             (None, Some(order)) => order,
@@ -80,7 +84,7 @@ impl<'l> Family<'l> {
             }
         };
         let made = RefCell::default();
-        Ok(Self { line, parameter, order, shaft, resonance, width: to - from, made })
+        Ok(Self { line, parameter, order, strongest, shaft, resonance, width: to - from, made })
     }
 
     /// The member at a value; `None` where the line cannot be had.
@@ -143,7 +147,7 @@ impl<'l> Family<'l> {
     }
 }
 
-/// The order that an amplitude, a phase of a torque belongs to.
+/// The order that the amplitude of a torque belongs to.
 fn order_of(line: &Driveline, parameter: &Parameter) -> Option<f64> {
     if !parameter.address.ends_with("amplitude") {
         return None;

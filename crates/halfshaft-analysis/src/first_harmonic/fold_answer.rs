@@ -44,7 +44,7 @@ pub(crate) fn solve(
             reason: format!("no line can be had with {}", question.parameter.address),
         });
     };
-    told::common(&sample, question.order.is_none(), &mut header);
+    told::common(&sample, family.strongest, &mut header);
     tell(&family, question, &traced, &mut header);
     let curves = traced
         .curves

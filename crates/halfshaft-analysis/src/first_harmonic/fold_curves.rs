@@ -67,7 +67,7 @@ impl Plane<'_> {
                 return result;
             }
             observer.progress(0.6 * index as f64 / ROWS as f64);
-            let folds = self.row(*value);
+            let folds = self.row(*value, &|| observer.cancelled());
             result.gaps += usize::from(folds.is_none());
             rows.push(folds.unwrap_or_default());
         }
@@ -97,11 +97,12 @@ impl Plane<'_> {
     }
 
     /// All folds at a value of the parameter; `None` where the line cannot be had.
-    fn row(&self, parameter: f64) -> Option<Row> {
+    fn row(&self, parameter: f64, cancelled: &dyn Fn() -> bool) -> Option<Row> {
         let problem = self.family.at(parameter)?;
         let finder = Finder::new(&problem);
-        let grid = Grid::new(&problem, &finder, even(self.window.0, self.window.1, COLUMNS));
-        let curve = follow(&problem, grid, &|| false);
+        let grid =
+            Grid::new(&problem, &finder, even(self.window.0, self.window.1, COLUMNS), cancelled);
+        let curve = follow(&problem, grid, cancelled);
         let samples = curve.pieces.iter().flat_map(|piece| &piece.samples);
         let folds = samples.filter(|sample| sample.kind == Kind::Fold);
         let spot = |response: &super::responses::Response| Spot {

@@ -120,6 +120,18 @@ pub(super) fn order(
     Ok(best.0)
 }
 
+/// The shaft whose twist is solved for: the nonlinear one; of a linear line the first that an order
+/// twists within a range of circular frequencies.
+pub(super) fn shaft(problem: Problem, window: (f64, f64)) -> Problem {
+    if !problem.law.law.is_linear() || !problem.law.is_plain() || reaches(&problem, window).is_ok()
+    {
+        return problem;
+    }
+    let other = |shaft| Problem::of_shaft(problem.equations.clone(), shaft, problem.order);
+    let others = (0..problem.equations.connections.len()).map(other);
+    others.into_iter().find(|other| reaches(other, window).is_ok()).unwrap_or(problem)
+}
+
 /// Refuses a drive that does not reach the shaft within a range of circular frequencies.
 pub(super) fn reaches(problem: &Problem, (from, to): (f64, f64)) -> Result<(), AnalysisError> {
     let scale = problem.equations.excitation.scale();
@@ -155,7 +167,7 @@ pub(super) fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
 pub(super) fn window(problem: &Problem, finder: &Finder, resonance: &Resonance) -> (f64, f64) {
     let omega = resonance.omega;
     let broad = even(0.4 * omega, 1.9 * omega, COARSE);
-    let curve = follow(problem, Grid::new(problem, finder, broad), &|| false);
+    let curve = follow(problem, Grid::new(problem, finder, broad, &|| false), &|| false);
     let (low, high) = marks(&curve, omega);
     let reach = (4.0 * resonance.beta).max(high - low).clamp(1e-3 * omega, 0.5 * omega);
     ((low - reach).max(0.05 * omega), high + reach)
