@@ -257,6 +257,31 @@ impl Tracer<'_, '_> {
         found
     }
 
+    /// The folds of a branch alone.
+    pub(super) fn folds(&mut self, judge: &mut Judge, samples: &[Sample]) -> Vec<Special> {
+        let mut found = Vec::new();
+        for (after, pair) in samples.windows(2).enumerate() {
+            if pair[0].tangent_p * pair[1].tangent_p >= 0.0 {
+                continue;
+            }
+            let Some((sample, precision)) = self.locate(judge, &Test::Fold, (&pair[0], &pair[1]))
+            else {
+                continue;
+            };
+            found.push(Special {
+                kind: SpecialKind::Fold,
+                after,
+                sample,
+                stability: None,
+                precision,
+                located: true,
+                change: None,
+                note: None,
+            });
+        }
+        found
+    }
+
     fn between_pair(
         &mut self,
         judge: &mut Judge,
