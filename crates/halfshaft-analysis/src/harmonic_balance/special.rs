@@ -11,7 +11,7 @@ use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_results::SpecialKind;
 
-use super::problem::{Condition, Failure, Metric};
+use super::problem::{Axis, Condition, Failure, Metric};
 use super::stability::{Crossing, Judge, Stability, counted, crossings, pair_angle, test};
 use super::tracer::{MOST_HARMONICS, Sample, Tracer, refit};
 
@@ -126,7 +126,10 @@ impl Tracer<'_, '_> {
         let mut u = sample.u.clone();
         self.use_set(&sample.set, &mut u, &sample.set);
         let place = self.problem.place_at(sample.p);
-        self.problem.line_at(sample.p)?;
+        if matches!(self.problem.axis, Axis::Parameter(_)) {
+            self.problem.line_at(sample.p)?;
+            *judge = Judge::new(&self.problem.system);
+        }
         judge.stability(&self.problem.system, &sample.u, place)
     }
 
