@@ -46,8 +46,8 @@ class Answer:
     run: Run
     samples: int
     own_seconds: float
+    rows: list = field(default_factory=list)
     orbits: list = field(default_factory=list)
-    parameter_ranges: list = field(default_factory=list)
 
 
 class Auto:
@@ -113,14 +113,17 @@ class Program:
         return (self.folder / "fort.8").read_text()
 
     def _read(self, run):
-        rows = [line.split() for line in (self.folder / "fort.7").read_text().splitlines()]
+        table = self.folder / "fort.7"
+        rows = [line.split() for line in table.read_text().splitlines()] if table.exists() else []
         rows = [row for row in rows if row and row[0] != "0"]
         own = [line for line in run.output.splitlines() if "Total Time" in line]
         if run.status != 0 or not own or not rows:
             raise Failure(f"AUTO failed in {self.folder}:\n{run.output[-800:]}{run.errors[-800:]}")
-        if any(row[2].endswith("9") and row[2].startswith("-") for row in rows):
+        if any(remainder(int(row[2])) == -9 for row in rows):
             raise Failure(f"AUTO did not converge (MX) in {self.folder}:\n{run.output[-800:]}")
-        return Answer(run, len(rows), float(own[-1].split()[-1]), read_orbits(self.folder / "fort.8"))
+        return Answer(run, len(rows), float(own[-1].split()[-1]),
+                      [[number(cell) for cell in row[4:]] for row in rows],
+                      read_orbits(self.folder / "fort.8"))
 
 
 def include_file(constants):
