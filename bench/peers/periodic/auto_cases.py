@@ -27,21 +27,30 @@ def constants_of(case: Case):
         "torque": (1, line.torque), "first_cosine": (1, cosine), "first_sine": (1, sine)}
 
 
-def run(auto, case: Case, settings, repeats):
-    """A row of the table: the curve traced `repeats` times, medians of the times."""
-    equations, numbers = constants_of(case)
-    if case.fold_range:
-        numbers["amplitude"] = case.fold_range[1]
-    program = auto.program(case.key, equations, numbers)
-    trace = fold_curve if case.fold_range else response_curve
-    whole, inside = [], []
-    for _ in range(repeats):
-        seconds, own, samples, orbits = trace(program, case, settings)
-        whole.append(1e3 * seconds)
-        inside.append(1e3 * own)
-    found = [special(orbit, case) for orbit in orbits if orbit.kind != "end"]
-    remark = "stopped at its number of samples" if samples >= settings.points else ""
-    return Row("AUTO-07p", settings.label(), samples, median(whole), median(inside), found, remark)
+class Side:
+    """AUTO-07p on one case with one mesh, measured once per call of `once`."""
+
+    def __init__(self, auto, case: Case, settings):
+        self.case, self.settings = case, settings
+        equations, numbers = constants_of(case)
+        if case.fold_range:
+            numbers["amplitude"] = case.fold_range[1]
+        self.program = auto.program(f"{case.key} {settings.label()}".replace(" ", "-"), equations, numbers)
+        self.trace = fold_curve if case.fold_range else response_curve
+        self.whole, self.inside, self.samples, self.orbits = [], [], 0, []
+
+    def once(self):
+        """One more measurement."""
+        whole, inside, self.samples, self.orbits = self.trace(self.program, self.case, self.settings)
+        self.whole.append(1e3 * whole)
+        self.inside.append(1e3 * inside)
+
+    def row(self):
+        """Medians and what the last run found."""
+        found = [special(orbit, self.case) for orbit in self.orbits if orbit.kind != "end"]
+        remark = "stopped at its number of samples" if self.samples >= self.settings.points else ""
+        return Row("AUTO-07p", self.settings.label(), self.samples, median(self.whole),
+                   median(self.inside), found, remark)
 
 
 def special(orbit, case):
@@ -59,9 +68,12 @@ def response_curve(program, case, settings):
     sign = -1 if case.downwards else 1
     # The bounds lie a little outside, since the first orbit must not stand on one.
     constants = {
-        **COMMON, "NDIM": 2 * len(case.line.inertia) + 2, "NTST": settings.ntst, "NCOL": settings.ncol,
-        "DS": sign * case.first_step, "DSMAX": settings.longest, "NMX": settings.points,
-        "RL0": 0.999 * case.low - case.base, "RL1": 1.001 * case.high - case.base, **({"UZR": f"{{1: {samples}}}"} if samples else {})}
+        **COMMON, "NDIM": 2 * len(case.line.inertia) + 2, "NTST": settings.ntst,
+        "NCOL": settings.ncol, "DS": sign * case.first_step, "DSMAX": settings.longest,
+        "NMX": settings.points, "RL0": 0.999 * case.low - case.base,
+        "RL1": 1.001 * case.high - case.base}
+    if samples:
+        constants["UZR"] = f"{{1: {samples}}}"
     answer = program.run(constants)
     return answer.run.seconds, answer.own_seconds, answer.samples, answer.orbits
 
