@@ -23,11 +23,16 @@ fn bench(criterion: &mut Criterion) {
     let (physical, scaled) = (line(false), line(true));
     let text = QuestionText::default;
     let some = |text: &str| Some(text.to_owned());
-    let plane = |parameter: &str| QuestionText { parameter: some(parameter), ..text() };
+    let averaged = || QuestionText { method: some("averaged"), ..text() };
+    let plane = |parameter: &str| QuestionText { parameter: some(parameter), ..averaged() };
     let cases: Vec<(&str, &Driveline, Question)> = vec![
         ("static", &physical, Question::Static),
         ("modes", &physical, question(&physical, Verb::Modes, &text())),
-        ("response curve, 1000 frequencies", &scaled, question(&scaled, Verb::Resonance, &text())),
+        (
+            "response curve, 1000 frequencies",
+            &scaled,
+            question(&scaled, Verb::Resonance, &averaged()),
+        ),
         (
             "folds, amplitude",
             &scaled,
@@ -44,7 +49,7 @@ fn bench(criterion: &mut Criterion) {
         (
             "verified response curve",
             &scaled,
-            question(&scaled, Verb::Resonance, &QuestionText { verify: true, ..text() }),
+            question(&scaled, Verb::Resonance, &QuestionText { verify: true, ..averaged() }),
         ),
     ];
     let mut group = criterion.benchmark_group("question");

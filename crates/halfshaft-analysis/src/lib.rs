@@ -18,18 +18,35 @@ mod averaging;
 mod check;
 mod equilibrium;
 mod error;
+mod first_harmonic;
+mod harmonic_balance;
 mod header;
 mod modal;
+mod polynomials_only;
 mod shock;
 mod time_response;
 mod verification;
 
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{Question, ResonanceMethod};
+use halfshaft_model::question::{FoldsQuestion, Question, ResonanceMethod};
 use halfshaft_numerics::observer::Observer;
-use halfshaft_results::Answer;
+use halfshaft_results::{Answer, ResponseCount};
 
 pub use error::AnalysisError;
+
+/// Numbers of periodic responses that coexist, by the first harmonic, at all pairs of excitation
+/// speeds (rad/s) and values of the parameter of a question about folds.
+///
+/// # Errors
+/// [`AnalysisError::MethodDoesNotFit`] for a line with several nonlinear shafts.
+pub fn response_count(
+    line: &Driveline,
+    question: &FoldsQuestion,
+    speeds: &[f64],
+    parameters: &[f64],
+) -> Result<ResponseCount, AnalysisError> {
+    first_harmonic::response_count(line, question, speeds, parameters)
+}
 
 /// Answers a question about a line.
 ///
@@ -52,11 +69,23 @@ pub fn ask(
         }
         Question::Shock(question) => Answer::History(shock::solve(line, question, observer)?),
         Question::Resonance(question) => match question.method {
+            ResonanceMethod::HarmonicBalance => {
+                Answer::Resonance(harmonic_balance::solve(line, question, observer)?)
+            }
+            ResonanceMethod::FirstHarmonic => {
+                Answer::Resonance(first_harmonic::solve(line, question, observer)?)
+            }
             ResonanceMethod::Averaged => {
                 Answer::Resonance(averaging::solve(line, question, observer)?)
             }
         },
         Question::Folds(question) => match question.method {
+            ResonanceMethod::HarmonicBalance => {
+                Answer::Folds(harmonic_balance::solve_folds(line, question, observer)?)
+            }
+            ResonanceMethod::FirstHarmonic => {
+                Answer::Folds(first_harmonic::solve_folds(line, question, observer)?)
+            }
             ResonanceMethod::Averaged => {
                 Answer::Folds(averaging::solve_folds(line, question, observer)?)
             }

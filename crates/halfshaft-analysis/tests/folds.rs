@@ -198,6 +198,7 @@ fn folds_between(line: &halfshaft_model::Driveline, parameter: &str, speeds: &st
     let text = QuestionText {
         parameter: Some(parameter.to_owned()),
         frequency: Some(speeds.to_owned()),
+        method: common::some("averaged"),
         ..QuestionText::default()
     };
     match common::try_ask(line, Verb::Folds, &text) {

@@ -215,13 +215,13 @@ fn jumps_land_on_the_other_stable_response() {
     assert_eq!(result.jumps.len(), 2);
     for jump in &result.jumps {
         assert_close(jump.rpm, jump.frequency * 60.0 / std::f64::consts::TAU, 1e-14);
-        let after = jump.rho_after.expect("there is one");
-        assert!(after > 0.0 && (after - jump.rho_before).abs() > 0.5);
+        let after = jump.after.expect("there is one");
+        assert!(after > 0.0 && (after - jump.before).abs() > 0.5);
     }
     let up = result.jumps.iter().find(|jump| jump.sweep == "up").expect("jumps up");
-    assert_close(up.rho_before, 2.283_638_626_840_623, 1e-10);
+    assert_close(up.before, 2.283_638_626_840_623, 1e-10);
     let down = result.jumps.iter().find(|jump| jump.sweep == "down").expect("jumps down");
-    assert_close(down.rho_before, 3.986_245_534_910_014, 1e-10);
+    assert_close(down.before, 3.986_245_534_910_014, 1e-10);
 }
 
 // Source: theory 4, erratum 4: f = T_m/J_m + T_L/J_L with the torques reduced to the wheel.
@@ -354,7 +354,7 @@ impl halfshaft_numerics::observer::Observer for Impatient {
 #[test]
 fn a_stopped_verification_says_how_far_it_came() {
     let line = oscillator(&[]);
-    let text = QuestionText { verify: true, ..Default::default() };
+    let text = QuestionText { verify: true, method: some("averaged"), ..Default::default() };
     let question = common::question(&line, Verb::Resonance, &text);
     let answer = halfshaft_analysis::ask(&line, &question, &Impatient(0.into())).expect("answers");
     let termination = &answer.header().termination;
@@ -460,7 +460,8 @@ fn an_order_of_two_halves_the_speed() {
 #[test]
 fn what_cannot_be_averaged_is_said_by_name() {
     let ask = |line: &halfshaft_model::Driveline, text: &QuestionText| {
-        try_ask(line, Verb::Resonance, text).expect_err("cannot be answered")
+        let text = QuestionText { method: some("averaged"), ..text.clone() };
+        try_ask(line, Verb::Resonance, &text).expect_err("cannot be answered")
     };
     let silent = oscillator(&["excitation.amplitude=0"]);
     let error = ask(&silent, &QuestionText::default());

@@ -132,19 +132,28 @@ fn wrong_options_are_told_all_at_once() {
         assert!(result.err.contains(words), "no {words:?} in {}", result.err);
     }
     let cases: &[(&[&str], &str)] = &[
-        (&["resonance", "--method", "harmonic-balance"], "not available in this version"),
+        (&["resonance", "--order", "1"], "all orders of the torques together"),
+        (
+            &["resonance", "--method", "averaged", "--harmonics", "3"],
+            "only the method harmonic-balance",
+        ),
+        (&["resonance", "--parameter", "engine torque.amplitude=1..9"], "--frequency 4Hz"),
+        (&["folds", "--parameter", "mode.f=1..9"], "only the closed form of one mode"),
         (&["resonance", "--frequency", "25"], "not a range"),
         (&["resonance", "--frequency", "25Hz..25Hz"], "empty"),
         (&["resonance", "--frequency", "3.9Hz..4.4"], "which unit the second number has"),
         (&["resonance", "--frequency", "28..4.4Hz"], "runs backwards"),
-        (&["resonance", "--mode", "2"], "no elastic mode number 2"),
+        (&["resonance", "--method", "averaged", "--mode", "2"], "no elastic mode number 2"),
         (&["modes", "--equilibrium", "9"], "no equilibrium number 9"),
         (
             &["simulate", "--initial", "engine.speed=1", "--initial", "gearbox output.speed=7"],
             "two of them fix the same motion",
         ),
         (&["folds", "--parameter", "vehicle.inertia=-5..100"], "must be more than zero"),
-        (&["folds", "--parameter", "mode.g=1..2"], "mode.alpha, mode.beta, mode.f, mode.omega_1"),
+        (
+            &["folds", "--method", "averaged", "--parameter", "mode.g=1..2"],
+            "mode.alpha, mode.beta, mode.f, mode.omega_1",
+        ),
         (&["folds", "--parameter", "engine torque.order=1..3"], "has no effect on fold curves"),
         (&["folds", "--parameter", "gearbox.ratios.1=1..3"], "take \"gearbox.ratio\""),
         (&["static", "--set", "vehicle.inertia=-5"], "must be more than zero"),
@@ -181,7 +190,10 @@ fn what_cannot_be_answered_ends_with_status_1_and_a_reason() {
     let folder = folder();
     let cases: &[(&[&str], &str)] = &[
         (&["modes", "--set", "gearbox.ratio=1.79"], "gear 1.79 at 850 N·m needs 8688 N·m"),
-        (&["resonance", "--set", "engine torque.amplitude=0"], "nothing excites the line"),
+        (
+            &["resonance", "--method", "averaged", "--set", "engine torque.amplitude=0"],
+            "nothing excites the line",
+        ),
         (&["simulate", "--set", "gearbox.ratio=5.82", "--duration", "10s"], "runs away"),
     ];
     for (arguments, words) in cases {

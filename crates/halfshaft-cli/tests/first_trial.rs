@@ -52,8 +52,8 @@ fn words_to_choose_from_stand_in_help_and_completions() {
             "shock",
             &["full, clamped, published, multiple-scales", "1, 2", "published, clamped, twist"],
         ),
-        ("resonance", &["averaged"]),
-        ("folds", &["averaged"]),
+        ("resonance", &["harmonic-balance, first-harmonic, averaged", "monodromy, hill"]),
+        ("folds", &["harmonic-balance, first-harmonic, averaged"]),
     ] {
         let help = run(folder.path(), &[command, "--help"]).out;
         for words in words {
@@ -68,8 +68,8 @@ fn words_to_choose_from_stand_in_help_and_completions() {
     let result = run(folder.path(), &["simulate", "--start", "rset", "--duration", "5kg"]);
     assert!(result.err.contains("did you mean \"rest\"?"), "{}", result.err);
     assert!(result.err.contains("5kg"), "{}", result.err);
-    let result = run(folder.path(), &["folds", "--method", "first-harmonic"]);
-    assert!(result.err.contains("not available in this version"), "{}", result.err);
+    let result = run(folder.path(), &["folds", "--method", "first-harmonik"]);
+    assert!(result.err.contains("did you mean \"first-harmonic\"?"), "{}", result.err);
 }
 
 #[test]

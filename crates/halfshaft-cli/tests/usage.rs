@@ -72,10 +72,10 @@ fn manual_pages_need_a_folder() {
 #[test]
 fn an_unknown_option_is_told_with_those_that_there_are() {
     let folder = folder();
-    let result = run(folder.path(), &["resonance", "--harmonics", "5"]);
+    let result = run(folder.path(), &["resonance", "--colour", "5"]);
     assert_eq!(result.status, 2);
-    assert!(result.err.contains("--frequency, --method"), "{}", result.err);
-    assert!(!result.err.contains("-- --harmonics"), "{}", result.err);
+    assert!(result.err.contains("--frequency, --parameter, --method"), "{}", result.err);
+    assert!(!result.err.contains("-- --colour"), "{}", result.err);
     let near = run(folder.path(), &["resonance", "--frequenzy", "5"]);
     assert!(near.err.contains("'--frequency'"), "{}", near.err);
     let second = run(folder.path(), &["static", "a.toml", "b.toml"]);
@@ -96,6 +96,8 @@ fn harmonics_are_set_by_their_number() {
     assert_eq!(result.status, 0, "{}", result.err);
     assert!(result.out.contains("7.0"), "{}", result.out);
     let swept = "engine torque.harmonics.1.amplitude=100..2000";
-    let result = run(folder.path(), &["folds", "line.toml", "--order", "2", "--parameter", swept]);
+    let averaged = ["folds", "line.toml", "--method", "averaged"];
+    let result =
+        run(folder.path(), &[&averaged[..], &["--order", "2", "--parameter", swept]].concat());
     assert_eq!(result.status, 0, "{}", result.err);
 }

@@ -5,14 +5,14 @@ use halfshaft_model::{Driveline, End, Network, Topology};
 
 use crate::error::DynamicsError;
 use crate::excitation::Excitation;
-use crate::laws::{PolynomialLaw, TorqueLaw};
+use crate::laws::{Friction, TorqueLaw, law_of_mesh, law_of_shaft};
 use crate::rigid::RigidBody;
 
-/// A shaft between two groups (or a group and ground): twist
+/// A shaft between two groups (or a group and ground), or the elastic mesh of a gear: twist
 /// `x = ratio_from q_from - ratio_to q_to`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
-    /// Name of the shaft.
+    /// Name of the shaft or gear.
     pub name: String,
     /// Group and ratio of the node at the `from` end; `None` is ground.
     pub from: End,
@@ -22,6 +22,30 @@ pub struct Connection {
     pub law: TorqueLaw,
     /// Viscous damping in parallel, N·m·s/rad.
     pub damping: f64,
+    /// Whether the damping acts at every twist; else only where [`TorqueLaw::in_contact`].
+    pub damps_in_gap: bool,
+    /// Dry friction in parallel.
+    pub friction: Option<Friction>,
+}
+
+impl Connection {
+    /// Viscous damping that acts at twist `x` (rad), N·m·s/rad.
+    #[inline]
+    pub fn damping_at(&self, x: f64) -> f64 {
+        if self.damps_in_gap || self.law.in_contact(x) { self.damping } else { 0.0 }
+    }
+
+    /// Torque that depends on the rate of twist `v` (rad/s): viscous damping and dry friction, N·m.
+    #[inline]
+    pub fn resistance(&self, x: f64, v: f64) -> f64 {
+        self.damping_at(x) * v + self.friction.map_or(0.0, |friction| friction.torque(v))
+    }
+
+    /// Derivative of [`Connection::resistance`] by the rate, N·m·s/rad.
+    #[inline]
+    pub fn resistance_slope(&self, x: f64, v: f64) -> f64 {
+        self.damping_at(x) + self.friction.map_or(0.0, |friction| friction.slope(v))
+    }
 }
 
 /// A node of the line: it turns at `ratio` times its group.
@@ -37,7 +61,7 @@ pub struct NodePlace {
     pub inertia: f64,
 }
 
-/// `M q'' + D q' + Σ w (c x' + p(x)) = Q`, one coordinate `q` a group.
+/// `M q'' + D q' + Σ w (c x' + r(x') + p(x)) = Q`, one coordinate `q` a group.
 #[derive(Clone, Debug)]
 pub struct EquationsOfMotion {
     /// Inertia of each group, kg·m², at its reference node.
@@ -46,7 +70,7 @@ pub struct EquationsOfMotion {
     pub ground_damping: Vec<f64>,
     /// Reference node of each group, by index into `nodes`.
     pub reference: Vec<usize>,
-    /// Shafts in file order.
+    /// Shafts and then elastic meshes of gears, each in file order.
     pub connections: Vec<Connection>,
     /// Nodes of the line.
     pub nodes: Vec<NodePlace>,
@@ -161,18 +185,35 @@ fn node_places(line: &Driveline, topology: &Topology) -> Vec<NodePlace> {
     topology.nodes.iter().map(place).collect()
 }
 
+/// Shafts and then elastic meshes of gears, as in the network.
 fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
-    line.shafts()
-        .iter()
-        .zip(&network.ends)
-        .map(|(shaft, [from, to])| Connection {
-            name: shaft.name.clone(),
-            from: *from,
-            to: *to,
-            law: TorqueLaw::Polynomial(PolynomialLaw::new(shaft.polynomial())),
-            damping: shaft.damping_nm_s_per_rad,
-        })
-        .collect()
+    let shafts = line.shafts().iter().map(|shaft| Connection {
+        name: shaft.name.clone(),
+        from: None,
+        to: None,
+        law: law_of_shaft(shaft),
+        damping: shaft.damping_nm_s_per_rad,
+        damps_in_gap: shaft.damps_in_gap,
+        friction: (shaft.friction_nm > 0.0).then_some(Friction {
+            torque_nm: shaft.friction_nm,
+            speed_rad_s: shaft.friction_speed_rad_s,
+        }),
+    });
+    let meshes = line.meshes().map(|gear| Connection {
+        name: gear.name.clone(),
+        from: None,
+        to: None,
+        law: law_of_mesh(gear),
+        damping: gear.damping_nm_s_per_rad.unwrap_or(0.0),
+        damps_in_gap: gear.damps_in_gap,
+        friction: None,
+    });
+    let placed = |(connection, [from, to]): (Connection, &[End; 2])| Connection {
+        from: *from,
+        to: *to,
+        ..connection
+    };
+    shafts.chain(meshes).zip(&network.ends).map(placed).collect()
 }
 
 /// Gives the balancing torque, if there is one, the mean that stops the rigid-body motion

@@ -23,6 +23,32 @@ pub struct Source {
     pub own_frequency: Option<f64>,
     /// A part that acts once.
     pub pulse: Option<Pulse>,
+    /// Power of the speed with which the harmonics grow; 0 where they do not.
+    pub speed_power: f64,
+    /// Speed at which the harmonics have the stated amplitudes, rad/s.
+    pub reference_speed: f64,
+}
+
+impl Source {
+    /// Factor on the harmonics at excitation speed `frequency` (rad/s):
+    /// `(frequency / reference)^power`.
+    #[inline]
+    pub fn growth(&self, frequency: f64) -> f64 {
+        if self.speed_power == 0.0 {
+            return 1.0;
+        }
+        (frequency / self.reference_speed).abs().powf(self.speed_power)
+    }
+
+    /// Derivative of [`Source::growth`] by the speed, s/rad.
+    #[inline]
+    pub fn growth_slope(&self, frequency: f64) -> f64 {
+        if self.speed_power == 0.0 {
+            return 0.0;
+        }
+        let part = (frequency / self.reference_speed).abs().powf(self.speed_power - 1.0);
+        self.speed_power * part / self.reference_speed * frequency.signum()
+    }
 }
 
 /// Which parts of the torques act.
@@ -80,6 +106,8 @@ impl Excitation {
                 harmonics: loud.copied().collect(),
                 own_frequency: torque.frequency_rad_s,
                 pulse: torque.pulse.clone(),
+                speed_power: torque.speed_power.unwrap_or(0.0),
+                reference_speed: torque.reference_speed_rad_s.unwrap_or(1.0),
             })
         };
         Self { sources: line.torques().iter().filter_map(source).collect() }
@@ -94,14 +122,39 @@ impl Excitation {
         torques
     }
 
-    /// Complex amplitude (real, imaginary) on each group of the torques of order `order`:
-    /// `Re[(a + i b) exp(i order Ω t)]`, N·m.
-    pub fn harmonic(&self, groups: usize, order: f64) -> Vec<(f64, f64)> {
+    /// Complex amplitude (real, imaginary) on each group of the torques of order `order` at
+    /// excitation speed `frequency` Ω (rad/s): `Re[(a + i b) exp(i order Ω t)]`, N·m.
+    pub fn harmonic(&self, groups: usize, order: f64, frequency: f64) -> Vec<(f64, f64)> {
+        self.weighted(groups, order, |source| source.growth(frequency))
+    }
+
+    /// Derivative of [`Excitation::harmonic`] by the excitation speed, N·m·s/rad.
+    pub fn harmonic_slope(&self, groups: usize, order: f64, frequency: f64) -> Vec<(f64, f64)> {
+        self.weighted(groups, order, |source| source.growth_slope(frequency))
+    }
+
+    /// The first torque of an order whose amplitudes grow with the excitation speed.
+    pub fn growing(&self) -> Option<&Source> {
+        self.sources.iter().find(|source| {
+            source.speed_power != 0.0
+                && source.own_frequency.is_none()
+                && !source.harmonics.is_empty()
+        })
+    }
+
+    /// Torques of one order on the groups, each source times a factor of its own.
+    fn weighted(
+        &self,
+        groups: usize,
+        order: f64,
+        factor: impl Fn(&Source) -> f64,
+    ) -> Vec<(f64, f64)> {
         let mut torques = vec![(0.0, 0.0); groups];
         for source in self.sources.iter().filter(|source| source.own_frequency.is_none()) {
+            let factor = factor(source);
             for harmonic in source.harmonics.iter().filter(|h| h.order == order) {
                 let (sin, cos) = harmonic.phase_rad.sin_cos();
-                let amplitude = source.ratio * harmonic.amplitude_nm;
+                let amplitude = source.ratio * harmonic.amplitude_nm * factor;
                 torques[source.group].0 += amplitude * cos;
                 torques[source.group].1 += amplitude * sin;
             }

@@ -3,7 +3,7 @@
 //! In goes a validated [`Driveline`](halfshaft_model::Driveline), out come
 //!
 //! ```text
-//! M q'' + D q' + Σ w_e [ c_e x_e' + p_e(x_e) ] = Q(t),      x_e = w_eᵀ q
+//! M q'' + D q' + Σ w_e [ c_e x_e' + r_e(x_e') + p_e(x_e) ] = Q(t),      x_e = w_eᵀ q
 //! ```
 //!
 //! with the gears taken out: one coordinate `q` for each group of nodes that turn rigidly
@@ -26,6 +26,6 @@ mod rigid;
 pub use equations::{Connection, EquationsOfMotion, NodePlace};
 pub use error::DynamicsError;
 pub use excitation::{Active, Excitation, Source};
-pub use laws::TorqueLaw;
+pub use laws::{DescribingFunction, Friction, TorqueLaw};
 pub use motion::{Kinematics, Motion};
 pub use rigid::RigidBody;

@@ -1,13 +1,15 @@
 //! Parameter addresses: `<element name>.<key>` for every numeric key of a line.
 //!
 //! `half-shaft.cubic`, `engine torque.amplitude`, `engine torque.pulse.peak`,
-//! `engine torque.harmonics.1.amplitude` (the first entry of `harmonics`), `gearbox.ratios.1`.
+//! `engine torque.harmonics.1.amplitude` (the first entry of `harmonics`), `gearbox.ratios.1`,
+//! `clutch.stages.1.until`, `clutch.table.torque.1`.
 //! Element names may contain dots; the longest name that fits is meant.
 
 use crate::diagnostic::did_you_mean;
 use crate::driveline::Driveline;
 use crate::elements::{
-    GEAR, HARMONIC, Harmonic, INERTIA, MeanTorque, PULSE, SHAFT, TORQUE, Torque,
+    GEAR, HARMONIC, Harmonic, INERTIA, MEASURED, MeanTorque, PULSE, SHAFT, STAGE, Shaft, TORQUE,
+    Torque,
 };
 use crate::format::{TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
@@ -154,24 +156,66 @@ struct Number {
 /// All numbers of an element, with those of the tables and lists that it has.
 fn numbers(line: &Driveline, list: List, index: usize) -> Vec<Number> {
     let mut numbers = numbers_of(table_of(list), "");
-    if let (List::Gear, Some(gear)) = (list, line.gears.get(index))
-        && let Some(ValueSpec::Quantities(kind, sign)) = GEAR.key("ratios").map(|key| key.value)
-    {
-        let keys = (1..=gear.ratios.len()).map(|number| format!("ratios.{number}"));
-        numbers.extend(keys.map(|key| Number { key, kind, sign }));
+    match list {
+        List::Inertia => {}
+        List::Gear => {
+            if let Some(mut gear) = line.gears.get(index).cloned() {
+                numbers.extend(listed(&GEAR, "ratios", "ratios", gear.ratios.len()));
+                numbers.retain(|number| gear.parameter_mut(&number.key).is_some());
+            }
+        }
+        List::Shaft => {
+            if let Some(shaft) = line.shafts.get(index) {
+                numbers.extend(numbers_of_law(shaft));
+                let mut shaft = shaft.clone();
+                numbers.retain(|number| shaft.parameter_mut(&number.key).is_some());
+            }
+        }
+        List::Torque => {
+            if let Some(torque) = line.torques.get(index) {
+                numbers.extend(numbers_of_torque(torque));
+                let mut torque = torque.clone();
+                numbers.retain(|number| torque.parameter_mut(&number.key).is_some());
+            }
+        }
     }
-    if let (List::Torque, Some(torque)) = (list, line.torques.get(index)) {
-        if let Some(mut pulse) = torque.pulse.clone() {
-            let mut inside = numbers_of(&PULSE, "");
-            // An impulse has no peak, and no other shape an impulse.
-            inside.retain(|number| pulse.parameter_mut(&number.key).is_some());
-            inside.iter_mut().for_each(|number| number.key.insert_str(0, "pulse."));
-            numbers.extend(inside);
+    numbers
+}
+
+/// The numbers of a list of `count` numbers that stands at `key` of a table.
+fn listed(table: &TableSpec, key: &str, prefix: &str, count: usize) -> Vec<Number> {
+    let Some(ValueSpec::Quantities(kind, sign)) = table.key(key).map(|key| key.value) else {
+        return Vec::new();
+    };
+    let keys = (1..=count).map(|number| format!("{prefix}.{number}"));
+    keys.map(|key| Number { key, kind, sign }).collect()
+}
+
+/// The numbers of stages and points.
+fn numbers_of_law(shaft: &Shaft) -> Vec<Number> {
+    let mut numbers = Vec::new();
+    for (list, stages) in [("stages", &shaft.stages), ("coast_stages", &shaft.coast_stages)] {
+        for number in 1..=stages.len() {
+            numbers.extend(numbers_of(&STAGE, &format!("{list}.{number}.")));
         }
-        // Entry 0 is that of the torque's own keys.
-        for number in 1..torque.harmonics.len() {
-            numbers.extend(numbers_of(&HARMONIC, &format!("harmonics.{number}.")));
-        }
+    }
+    if let Some(table) = &shaft.table {
+        numbers.extend(listed(&MEASURED, "twist", "table.twist", table.twist_rad.len()));
+        numbers.extend(listed(&MEASURED, "torque", "table.torque", table.torque_nm.len()));
+    }
+    numbers
+}
+
+/// The numbers of a pulse and of further harmonics. An impulse has no peak, and no other shape an
+/// impulse; both are left out later.
+fn numbers_of_torque(torque: &Torque) -> Vec<Number> {
+    let mut numbers = Vec::new();
+    if torque.pulse.is_some() {
+        numbers.extend(numbers_of(&PULSE, "pulse."));
+    }
+    // Entry 0 is that of the torque's own keys.
+    for number in 1..torque.harmonics.len() {
+        numbers.extend(numbers_of(&HARMONIC, &format!("harmonics.{number}.")));
     }
     numbers
 }
@@ -188,8 +232,12 @@ fn numbers_of(table: &TableSpec, prefix: &str) -> Vec<Number> {
 }
 
 impl Parameter {
-    /// The parameter's value in `line`, in SI; `None` for a balancing mean torque.
+    /// The parameter's value in `line`, in SI; `None` for a balancing mean torque and for the mesh
+    /// stiffness of a rigid gear.
     pub fn value(&self, line: &Driveline) -> Option<f64> {
+        if self.is_mesh_stiffness() {
+            return line.gears.get(self.index)?.stiffness_nm_per_rad;
+        }
         if self.takes_balance() {
             return match line.torques.get(self.index)?.mean {
                 MeanTorque::Value(value) => Some(value),
@@ -211,9 +259,18 @@ impl Parameter {
         self.kind.si_unit()
     }
 
-    /// Whether another value makes other gear ratios.
+    /// Whether another value makes other gear ratios, or a rigid gear elastic.
     pub(crate) fn changes_gears(&self) -> bool {
         self.list == List::Gear && !self.is_listed_ratio()
+    }
+
+    fn is_mesh_stiffness(&self) -> bool {
+        self.list == List::Gear && self.key == "stiffness"
+    }
+
+    /// The shaft that it belongs to, if any.
+    pub(crate) fn shaft<'l>(&self, line: &'l Driveline) -> Option<&'l Shaft> {
+        line.shafts.get(self.index).filter(|_| self.list == List::Shaft)
     }
 
     /// Whether it is one of the ratios that a gearbox could be switched to.

@@ -135,10 +135,10 @@ fn each_mistake_points_at_its_text() {
         "",
     );
     assert_one_error(
-        &example_with("cubic = \"-642 N·m/rad³\"", "clearance = \"1 deg\""),
-        "clearance",
+        &example_with("cubic = \"-642 N·m/rad³\"", "length = \"1 m\""),
+        "length",
         "not available",
-        "polynomial",
+        "takes the stiffness",
     );
     assert_one_error(
         &example_with("shape = \"half-sine\"", "shape = \"halfsine\""),

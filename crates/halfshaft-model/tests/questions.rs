@@ -1,7 +1,7 @@
 //! Addresses and options: what is accepted, and what is refused with which hint.
 
 use halfshaft_model::format::{MODEL, json_schema};
-use halfshaft_model::question::{OptionError, QuestionText, Verb, read};
+use halfshaft_model::question::{OptionError, Question, QuestionText, Verb, read};
 use halfshaft_model::{Driveline, SetFlag, Source, embedded, read_model};
 
 fn example_with(from: &str, to: &str) -> Driveline {
@@ -16,11 +16,10 @@ fn example() -> Driveline {
 }
 
 fn folds(line: &Driveline, parameter: &str) -> Result<(f64, f64), Vec<OptionError>> {
-    let text = QuestionText { parameter: Some(parameter.to_owned()), ..QuestionText::default() };
+    let (parameter, method) = (Some(parameter.to_owned()), Some("averaged".to_owned()));
+    let text = QuestionText { parameter, method, ..QuestionText::default() };
     match read(Verb::Folds, &text, line)? {
-        halfshaft_model::question::Question::Folds(folds) => {
-            Ok((folds.parameter.from, folds.parameter.to))
-        }
+        Question::Folds(folds) => Ok((folds.parameter.from, folds.parameter.to)),
         other => panic!("{other:?}"),
     }
 }
@@ -100,7 +99,8 @@ fn a_parameter_without_effect_on_folds_is_refused() {
     assert_eq!(folds(&line, "engine torque.harmonics.1.amplitude=1..3"), Ok((1.0, 3.0)));
     assert_eq!(folds(&line, "engine torque.mean=1..3"), Ok((1.0, 3.0)));
     let parameter = Some("engine torque.harmonics.1.amplitude=1..3".to_owned());
-    let other = QuestionText { parameter, order: Some("1".to_owned()), ..QuestionText::default() };
+    let (order, method) = (Some("1".to_owned()), Some("averaged".to_owned()));
+    let other = QuestionText { parameter, order, method, ..QuestionText::default() };
     let errors = read(Verb::Folds, &other, &line).expect_err("is of another order");
     assert!(errors[0].hint.contains("--order 2"), "{errors:?}");
     let fixed = "amplitude = \"40 N·m\"\nfrequency = \"20 Hz\"";

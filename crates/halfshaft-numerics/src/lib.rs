@@ -23,6 +23,8 @@
 //! # Periodic signals
 //!
 //! [`fourier`] takes harmonics, and extremes between the samples, from one sampled period.
+//! [`harmonics`] holds truncated series and their products, for harmonic balance, and [`blocks`] the
+//! bordered block systems that it leads to.
 //!
 //! # Conventions
 //!
@@ -32,11 +34,13 @@
 //! - [`observer::Observer`] is how long computations, here and in the crates above, report progress
 //!   and learn that they should end.
 
+pub mod blocks;
 pub mod bracket;
 mod complex;
 pub mod dense;
 mod error;
 pub mod fourier;
+pub mod harmonics;
 pub mod newton;
 pub mod observer;
 pub mod ode;

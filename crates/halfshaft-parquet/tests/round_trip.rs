@@ -31,9 +31,11 @@ fn answers() -> Vec<Answer> {
     for method in ["clamped", "published", "multiple-scales"] {
         put(&example, Verb::Shock, QuestionText { method: Some(method.to_owned()), ..plain() });
     }
-    put(&example, Verb::Resonance, QuestionText { verify: true, ..plain() });
-    put(&scaled, Verb::Resonance, QuestionText { verify: true, ..plain() });
-    let plane = |parameter: &str| QuestionText { parameter: Some(parameter.to_owned()), ..plain() };
+    let averaged = || QuestionText { method: Some("averaged".to_owned()), ..plain() };
+    put(&example, Verb::Resonance, QuestionText { verify: true, ..averaged() });
+    put(&scaled, Verb::Resonance, QuestionText { verify: true, ..averaged() });
+    let plane =
+        |parameter: &str| QuestionText { parameter: Some(parameter.to_owned()), ..averaged() };
     put(&scaled, Verb::Folds, plane("spring.cubic=-1..1"));
     put(&example, Verb::Folds, plane("half-shaft.damping=1..100"));
     answers

@@ -24,5 +24,6 @@ pub mod summary;
 
 mod account;
 mod findings;
+mod reading;
 mod topology;
 mod words;

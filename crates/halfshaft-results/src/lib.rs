@@ -29,13 +29,13 @@ mod table;
 
 pub use answer::Answer;
 pub use check::{
-    CheckResult, CheckedGear, CheckedHarmonic, CheckedPulse, CheckedShaft, CheckedTorque, Member,
-    NonlinearTerm, ReducedInertia,
+    CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
+    CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
 };
 pub use equilibrium::{
     Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, SharedLoad, StaticResult,
 };
-pub use folds::FoldsResult;
+pub use folds::{FoldsResult, ResponseCount};
 pub use header::{Header, ModelIdentity, Reason, Termination};
 pub use history::{
     ChannelMetrics, EnergyBalance, HistoryMetrics, HistoryResult, MethodRow, ShaftMetrics,
@@ -43,7 +43,7 @@ pub use history::{
 };
 pub use modes::{Mode, ModesResult};
 pub use report::{MissingSection, ReportResult};
-pub use resonance::{Branch, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
+pub use resonance::{Branch, Effort, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
 pub use special::{SpecialKind, SpecialPoint, Status};
 pub use study::{ComparisonRow, ItemStyle, StudyFigureSpec, StudyItem, StudyResult};
 pub use table::{Column, Table, column_names};

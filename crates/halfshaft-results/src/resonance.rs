@@ -7,13 +7,66 @@ use crate::{Column, Header, Named, SpecialPoint, Table};
 /// A connected piece of the response curve: a table with its special points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Branch {
-    /// `frequency`, then the values of each channel, `stable`, `unstable_dimension`.
+    /// `frequency`, then the values of each channel, `stable`, `unstable_dimension`. Harmonic
+    /// balance adds `largest_multiplier` (modulus of the largest Floquet multiplier), `harmonics`
+    /// (highest one kept) and `truncation` (estimate of the error of the waveform that the harmonics
+    /// left out make, relative to its amplitude).
     pub columns: Vec<Column>,
-    /// Folds and ends on this branch, in its direction.
+    /// Folds, ends and the like on this branch, in its direction.
     pub special_points: Vec<SpecialPoint>,
+    /// Whether the branch closes on itself: a detached response where nothing else joins it.
+    #[serde(default)]
+    pub closed: bool,
+    /// Periods of the excitation that one period of the response takes.
+    #[serde(default = "one")]
+    pub periods: u32,
+    /// What the branch was found from, e.g. "low end of the range", "period doubling at 3.2 rad/s".
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub origin: String,
+    /// Why the branch ends where it does.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub ends: String,
+    /// Floquet multipliers of each sample as `[real, imaginary]`, the largest modulus first, at most
+    /// eight; empty where the method knows none.
+    #[serde(
+        default,
+        skip_serializing_if = "Vec::is_empty",
+        deserialize_with = "crate::number::read"
+    )]
+    pub multipliers: Vec<Vec<[f64; 2]>>,
+}
+
+fn one() -> u32 {
+    1
+}
+
+/// The effort of a continuation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Effort {
+    /// Samples of all branches.
+    pub samples: usize,
+    /// Steps that were tried, rejected ones included.
+    pub steps: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Starting points from which Newton's method was tried.
+    pub seeds: usize,
 }
 
 impl Branch {
+    /// A branch of a closed form: columns and special points, nothing more to tell.
+    pub fn plain(columns: Vec<Column>, special_points: Vec<SpecialPoint>) -> Self {
+        Self {
+            columns,
+            special_points,
+            closed: false,
+            periods: 1,
+            origin: String::new(),
+            ends: String::new(),
+            multipliers: Vec::new(),
+        }
+    }
+
     /// Values of the column of that name; empty where there is none.
     pub fn values(&self, name: &str) -> &[f64] {
         self.columns
@@ -81,11 +134,13 @@ pub struct JumpSpeeds {
     /// The same in revolutions per minute.
     #[serde(deserialize_with = "crate::number::read")]
     pub rpm: f64,
-    /// Amplitude of `x` before the jump, rad.
+    /// Channel whose first harmonic the amplitudes are of: the twist of a shaft.
+    pub channel: String,
+    /// First harmonic before the jump, rad.
     #[serde(deserialize_with = "crate::number::read")]
-    pub rho_before: f64,
-    /// Amplitude of `x` after the jump, rad; `None` where no other response exists.
-    pub rho_after: Option<f64>,
+    pub before: f64,
+    /// First harmonic after the jump, rad; `None` where no other stable response exists.
+    pub after: Option<f64>,
 }
 
 /// One response, predicted and by integration of the full equations.
@@ -94,6 +149,8 @@ pub struct VerifiedPoint {
     /// Excitation speed, rad/s.
     #[serde(deserialize_with = "crate::number::read")]
     pub frequency: f64,
+    /// Channel that is compared: the twist of a shaft.
+    pub channel: String,
     /// Predicted amplitude of the first harmonic of the twist, rad.
     #[serde(deserialize_with = "crate::number::read")]
     pub predicted: f64,
@@ -110,9 +167,12 @@ pub struct VerifiedPoint {
     pub predicted_stable: bool,
     /// Whether all Floquet multipliers of the orbit lie inside the unit circle.
     pub integrated_stable: bool,
-    /// Largest modulus of the Floquet multipliers.
+    /// Largest modulus of the Floquet multipliers of the orbit.
     #[serde(deserialize_with = "crate::number::read")]
     pub largest_multiplier: f64,
+    /// The same as predicted, where the method knows it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub predicted_multiplier: Option<f64>,
     /// Largest change of the state over one period of the orbit, relative.
     #[serde(deserialize_with = "crate::number::read")]
     pub orbit_residual: f64,
@@ -135,6 +195,9 @@ pub struct ResonanceResult {
     pub backbones: Vec<Table>,
     /// Where slow sweeps jump.
     pub jumps: Vec<JumpSpeeds>,
+    /// What the continuation cost, where there was one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub effort: Option<Effort>,
     /// Responses checked by integration.
     pub verification: Vec<VerifiedPoint>,
 }

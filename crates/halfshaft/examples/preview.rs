@@ -2,7 +2,8 @@
 //! `cargo run --example preview -- FOLDER [STUDY.toml]`.
 //!
 //! Several lines, each with its summaries as text, its figures as SVG and PNG, its sketch, and its
-//! report as HTML: the embedded example, the same in a gear that does not hold, the scaled
+//! report as HTML: answers made by hand with everything that harmonic balance can find, the embedded
+//! example, the same in a gear that does not hold, the scaled
 //! oscillator, the starter file, and a long branched line made up from a fixed seed. With a study also
 //! its summary, page and figures.
 
@@ -18,9 +19,19 @@ use halfshaft::present::figure::{SvgOptions, png, svg};
 use halfshaft::present::{figures, html, sketch, summary};
 use halfshaft::{Answer, Driveline, Silent, ask, report, run_study};
 
+#[path = "../tests/present/made.rs"]
+#[allow(dead_code, clippy::unwrap_used, reason = "its numbers are the tests'")]
+mod made;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args_os().nth(1).ok_or("which folder?")?;
     let folder = Path::new(&folder);
+    for (name, answer) in made::all() {
+        let folder = folder.join("made").join(name);
+        std::fs::create_dir_all(&folder)?;
+        write(name, &answer, &folder)?;
+        pictures(&answer, &folder)?;
+    }
     let starter = Source::new("starter", embedded::starter());
     let branched = Source::new("branched", branched(23));
     let scaled = |sets: &[&str]| line(embedded::scaled(), sets);
@@ -82,14 +93,15 @@ fn pictures(answer: &Answer, folder: &Path) -> Result<(), Box<dyn Error>> {
 /// Every question with settings that show much.
 fn questions() -> Vec<(Verb, QuestionText)> {
     let usual = QuestionText::default;
+    let averaged = || QuestionText { method: Some("averaged".to_owned()), ..usual() };
     vec![
         (Verb::Check, usual()),
         (Verb::Static, usual()),
         (Verb::Modes, usual()),
         (Verb::Simulate, QuestionText { duration: Some("2 s".to_owned()), ..usual() }),
         (Verb::Shock, QuestionText { compare: true, ..usual() }),
-        (Verb::Resonance, QuestionText { verify: true, ..usual() }),
-        (Verb::Folds, QuestionText { parameter: Some("mode.f=1..2000".to_owned()), ..usual() }),
+        (Verb::Resonance, QuestionText { verify: true, ..averaged() }),
+        (Verb::Folds, QuestionText { parameter: Some("mode.f=1..2000".to_owned()), ..averaged() }),
     ]
 }
 

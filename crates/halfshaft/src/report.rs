@@ -59,7 +59,11 @@ impl Reporter<'_> {
         if let Some(Answer::History(shock)) = self.ask("shock", &Question::Shock(shock)) {
             self.report.shock = Some(shock);
         }
-        let resonance = ResonanceQuestion { verify: true, ..ResonanceQuestion::default() };
+        let resonance = ResonanceQuestion {
+            method: ResonanceMethod::Averaged,
+            verify: true,
+            ..ResonanceQuestion::default()
+        };
         if let Some(Answer::Resonance(resonance)) =
             self.ask("resonance", &Question::Resonance(resonance))
         {
@@ -133,6 +137,8 @@ impl Reporter<'_> {
                 mode: scaling.mode,
                 order: Some(scaling.order),
                 points: 240,
+                harmonics: None,
+                tolerance: 1e-6,
             };
             if let Some(Answer::Folds(folds)) = self.ask("folds", &Question::Folds(question)) {
                 // A plane without any fold is a finding too; its warning says so.

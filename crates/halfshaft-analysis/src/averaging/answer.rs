@@ -2,7 +2,7 @@
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{Question, ResonanceQuestion};
+use halfshaft_model::question::{DEFAULT_POINTS, Question, ResonanceQuestion};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Branch, Column, Header, JumpSpeeds, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
@@ -38,11 +38,13 @@ pub(crate) fn solve(
         backbones: Vec::new(),
         jumps: Vec::new(),
         verification: Vec::new(),
+        effort: None,
     };
     let label = mode_label(&equations, rest, question.mode)?;
+    let points = question.points.unwrap_or(DEFAULT_POINTS);
     for (mode, window) in &modes {
         far_off(mode, *window, &mut result.header);
-        add_mode(&equations, mode, *window, question.points, &mut result);
+        add_mode(&equations, mode, *window, points, &mut result);
         result.scaling.push(scaling(&equations, mode, label.clone()));
         say(&equations, mode, &mut result);
         if question.verify {
@@ -153,7 +155,7 @@ fn excited_modes(
 pub(super) const MOST_DETUNED: f64 = 0.95;
 
 /// Range of Ω that shows the resonance: several widths of it and all of its bend.
-fn default_window(mode: &ModeEquation) -> (f64, f64) {
+pub(crate) fn default_window(mode: &ModeEquation) -> (f64, f64) {
     let flow = mode.slow_flow();
     let mut reach = 8.0 * mode.beta / 2.0;
     let mut bend = (0.0_f64, 0.0_f64);
@@ -185,7 +187,8 @@ fn add_mode(
         result.peaks.push(maps.values(mode, &peak));
     }
     result.backbones.push(backbone(mode, &flow, &maps, window));
-    result.jumps.extend(jumps(mode, &flow, window));
+    let channel = format!("{}.twist", equations.connections[mode.reference].name);
+    result.jumps.extend(jumps(mode, &flow, window, &channel));
 }
 
 fn branch(mode: &ModeEquation, maps: &ChannelMaps, piece: &[CurvePoint]) -> Branch {
@@ -200,10 +203,10 @@ fn branch(mode: &ModeEquation, maps: &ChannelMaps, piece: &[CurvePoint]) -> Bran
         for stability in ["stable", "unstable_dimension"] {
             values.shift_remove(stability);
         }
-        Some(SpecialPoint { kind, status: Status::Located, values })
+        Some(SpecialPoint::new(kind, Status::Located, values))
     };
     let special_points = piece.iter().filter_map(special).collect();
-    Branch { columns: maps.columns(mode, &responses), special_points }
+    Branch::plain(maps.columns(mode, &responses), special_points)
 }
 
 /// Points on a backbone.
@@ -234,7 +237,12 @@ fn backbone(mode: &ModeEquation, flow: &SlowFlow, maps: &ChannelMaps, window: (f
 }
 
 /// Jumps of slow sweeps: at each fold in the window, where the stable branch ends.
-fn jumps(mode: &ModeEquation, flow: &SlowFlow, (from, to): (f64, f64)) -> Vec<JumpSpeeds> {
+fn jumps(
+    mode: &ModeEquation,
+    flow: &SlowFlow,
+    (from, to): (f64, f64),
+    channel: &str,
+) -> Vec<JumpSpeeds> {
     let folds = flow.folds();
     let inside = folds.iter().filter(|fold| fold.sigma >= from && fold.sigma <= to);
     inside
@@ -254,8 +262,9 @@ fn jumps(mode: &ModeEquation, flow: &SlowFlow, (from, to): (f64, f64)) -> Vec<Ju
                 sweep: sweep.to_owned(),
                 frequency,
                 rpm: frequency * 30.0 / std::f64::consts::PI,
-                rho_before: fold.rho(),
-                rho_after: after.map(|response| response.rho()),
+                channel: channel.to_owned(),
+                before: fold.rho(),
+                after: after.map(|response| response.rho()),
             })
         })
         .collect()

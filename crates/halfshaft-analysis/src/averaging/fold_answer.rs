@@ -181,11 +181,7 @@ impl<'q> Family<'q> {
             let names = self.names();
             if let Some(row) = self.row(cusp)?.filter(|row| inside(row[0])) {
                 let values = names.into_iter().map(|(name, _)| name).zip(row).collect();
-                special_points.push(SpecialPoint {
-                    kind: SpecialKind::Cusp,
-                    status: Status::Located,
-                    values,
-                });
+                special_points.push(SpecialPoint::new(SpecialKind::Cusp, Status::Located, values));
             }
         }
         let mut header = header(self.line, &Question::Folds(self.question.clone()));
@@ -202,6 +198,7 @@ impl<'q> Family<'q> {
             parameter_unit: self.unit().to_owned(),
             parameter_value: self.own_value(),
             scaling: Some(scaling(equations, mode, label)),
+            responses: None,
         })
     }
 

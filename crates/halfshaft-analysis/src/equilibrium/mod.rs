@@ -1,15 +1,17 @@
 //! All states of rest (or uniform running) under the mean torques, and what shafts can carry.
 //!
 //! On a tree of shafts, statics alone decides the torque of each shaft, and the twist follows
-//! from its law: all roots of one polynomial each, so the list is proven complete. Shafts in
+//! from its law: all roots of one polynomial a piece, so the list is proven complete. Shafts in
 //! loops share their torque; those are solved together ([`clusters`]).
 
 mod answer;
 mod capacity;
 mod clusters;
+mod free_play;
+mod holding;
 mod running;
 
-use halfshaft_dynamics::{EquationsOfMotion, TorqueLaw};
+use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::elements::Pulse;
 use halfshaft_results::{Limit, ShaftCapacity};
 
@@ -19,6 +21,7 @@ use crate::modal::elastic::ElasticSpace;
 pub(crate) use answer::{overload_message, solve};
 pub(crate) use capacity::{capacity, carries};
 pub(crate) use clusters::all_twists;
+pub(crate) use free_play::free_play;
 pub(crate) use running::RunningState;
 
 /// One state of rest or uniform running.
@@ -210,11 +213,4 @@ pub(crate) fn lowest_eigenvalue(
 ) -> Result<f64, AnalysisError> {
     let eigenvalues = ElasticSpace::new(equations).eigenvalues(equations, &state.twists)?;
     Ok(eigenvalues.first().copied().unwrap_or(0.0))
-}
-
-/// The law of a connection as a polynomial.
-pub(crate) fn polynomial_of(law: &TorqueLaw) -> &halfshaft_dynamics::laws::PolynomialLaw {
-    match law {
-        TorqueLaw::Polynomial(law) => law,
-    }
 }

@@ -163,7 +163,8 @@ fn integrator_settings(
     let n = equations.groups();
     let m = equations.network.tree.len();
     let loading = equations.excitation.scale();
-    let stiffest = equations.connections.iter().map(|c| c.law.stiffness(0.0)).fold(0.0, f64::max);
+    let stiffnesses = equations.connections.iter().map(|c| c.law.pieces().stiffness_scale());
+    let stiffest = stiffnesses.fold(0.0, f64::max);
     let lightest = equations.inertia.iter().copied().fold(f64::INFINITY, f64::min);
     let fastest = (2.0 * stiffest / lightest).sqrt();
     let by_load = if stiffest > 0.0 { loading / stiffest } else { 0.0 };

@@ -64,15 +64,18 @@ pub fn history(line: &Driveline, verb: Verb, text: &QuestionText) -> HistoryResu
     }
 }
 
+/// Answer of `resonance` by the method that the options name, else by averaging.
 pub fn resonance(line: &Driveline, text: &QuestionText) -> ResonanceResult {
-    match asked(line, Verb::Resonance, text) {
+    let method = text.method.clone().or(some("averaged"));
+    match asked(line, Verb::Resonance, &QuestionText { method, ..text.clone() }) {
         Answer::Resonance(result) => result,
         other => panic!("{other:?}"),
     }
 }
 
 pub fn folds(line: &Driveline, parameter: &str) -> FoldsResult {
-    let text = QuestionText { parameter: Some(parameter.to_owned()), ..QuestionText::default() };
+    let (parameter, method) = (some(parameter), some("averaged"));
+    let text = QuestionText { parameter, method, ..QuestionText::default() };
     match asked(line, Verb::Folds, &text) {
         Answer::Folds(result) => result,
         other => panic!("{other:?}"),

@@ -2,6 +2,7 @@
 
 mod common;
 mod helpers;
+mod periodic;
 mod questions;
 mod words;
 

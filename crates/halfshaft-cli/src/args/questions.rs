@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use halfshaft::model::question::{ResonanceMethod, ShockEquation, ShockMethod, Start};
+use halfshaft::model::question::{ShockEquation, ShockMethod, Start};
 use halfshaft::{QuestionText, Verb};
 
 use super::common::Common;
+use super::periodic::{Folds, Resonance};
 use super::words::OneOf;
 
 /// Questions about a line.
@@ -52,25 +53,35 @@ pub enum Ask {
   halfshaft shock --method published --initial \"half-shaft.twist=1 rad\"
   halfshaft shock --method multiple-scales --order 1 --equation twist")]
     Shock(Shock),
-    /// Periodic responses over excitation speed: all branches, stability, folds
+    /// Periodic responses over excitation speed: all branches, stability, special points
     ///
-    /// The method averaged answers in closed form for one mode near its resonance. The scaling to
-    /// x'' + omega_1² x + alpha x³ + beta x' = f cos((omega_1 + sigma) t) is always printed; the
-    /// columns sigma and rho are in its variables.
+    /// How the line swings while the torques oscillate, at every excitation speed of the range: all
+    /// responses that coexist, which of them are stable, and where a slow sweep jumps.
+    ///
+    /// Methods: harmonic-balance (the whole line with all its orders, as many harmonics as the
+    /// tolerance needs; the one to trust), first-harmonic (one harmonic of a line with one nonlinear
+    /// shaft, which finds every response, detached ones too), averaged (closed form of one mode near
+    /// its resonance, in microseconds; the scaling to x'' + omega_1² x + alpha x³ + beta x' = f
+    /// cos((omega_1 + sigma) t) is printed with it).
+    ///
+    /// With --parameter the speed stays and a number of the model changes instead.
     #[command(after_help = "Examples:
   halfshaft resonance my-line.toml --verify
-  halfshaft resonance --frequency 3Hz..5Hz --out response.svg
-  halfshaft resonance --set \"engine torque.amplitude=900\" --json")]
+  halfshaft resonance --frequency 3Hz..5Hz --backbone --out response.svg
+  halfshaft resonance --frequency 4.1Hz --parameter \"engine torque.amplitude=0..900\"
+  halfshaft resonance --method averaged --set \"engine torque.amplitude=900\" --json")]
     Resonance(Resonance),
     /// Fold curves in a plane of excitation speed and one parameter, with cusps
     ///
     /// At a fold two responses meet and vanish, so that the line jumps to another one; at a cusp
-    /// two fold curves meet, and beyond it nothing jumps any more. The parameter is any number of the model by its address, or a coefficient of the scaled
-    /// equation: mode.alpha, mode.beta, mode.f, mode.omega_1.
+    /// two fold curves meet, and beyond it nothing jumps any more. Where a fold curve turns, a
+    /// detached response is born or joins another. The parameter is any number of the model by its
+    /// address; with --method averaged also a coefficient of the scaled equation: mode.alpha,
+    /// mode.beta, mode.f, mode.omega_1.
     #[command(after_help = "Examples:
   halfshaft folds --parameter \"engine torque.amplitude=100..2000\"
   halfshaft folds --parameter \"half-shaft.damping=1..100 N·m·s/rad\" --out folds.svg
-  halfshaft folds --parameter \"mode.f=1..20\"")]
+  halfshaft folds --method averaged --parameter \"mode.f=1..20\"")]
     Folds(Folds),
 }
 
@@ -158,55 +169,6 @@ pub struct Shock {
     pub compare: bool,
 }
 
-#[derive(Args, Debug)]
-pub struct Resonance {
-    #[command(flatten)]
-    pub model: Model,
-    /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz or 3.9..4.4Hz [default: about the
-    /// resonance]
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
-    pub frequency: Option<String>,
-    /// How; averaged is a closed form of one mode [default: averaged]
-    #[arg(long, value_name = "METHOD", value_parser = OneOf(&ResonanceMethod::WORDS))]
-    pub method: Option<String>,
-    /// Which elastic mode [default: 1]
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    pub mode: Option<String>,
-    /// Which order of the torques excites [default: every one that meets the mode in the range]
-    #[arg(long, value_name = "ORDER", allow_hyphen_values = true)]
-    pub order: Option<String>,
-    /// At how many speeds all responses are listed [default: 1000]
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    pub points: Option<String>,
-    /// Check chosen responses against periodic orbits of the full equations
-    #[arg(long)]
-    pub verify: bool,
-}
-
-#[derive(Args, Debug)]
-pub struct Folds {
-    #[command(flatten)]
-    pub model: Model,
-    /// The other axis (needed): "half-shaft.cubic=-700..0"
-    #[arg(long, value_name = "ADDRESS=A..B")]
-    pub parameter: Option<String>,
-    /// Range of the excitation speed Ω, e.g. 3.9Hz..4.4Hz or 3.9..4.4Hz [default: all]
-    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
-    pub frequency: Option<String>,
-    /// How; averaged is a closed form of one mode [default: averaged]
-    #[arg(long, value_name = "METHOD", value_parser = OneOf(&ResonanceMethod::WORDS))]
-    pub method: Option<String>,
-    /// Which elastic mode [default: 1]
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    pub mode: Option<String>,
-    /// Which order of the torques excites [default: the one that drives the mode most]
-    #[arg(long, value_name = "ORDER", allow_hyphen_values = true)]
-    pub order: Option<String>,
-    /// About how many points describe a curve [default: 200]
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    pub points: Option<String>,
-}
-
 impl Ask {
     /// The model, to complete its flags.
     pub fn model_mut(&mut self) -> &mut Model {
@@ -265,34 +227,6 @@ impl Shock {
             step: self.step.clone(),
             tolerance: self.tolerance.clone(),
             compare: self.compare,
-            ..QuestionText::default()
-        }
-    }
-}
-
-impl Resonance {
-    fn text(&self) -> QuestionText {
-        QuestionText {
-            frequency: self.frequency.clone(),
-            method: self.method.clone(),
-            mode: self.mode.clone(),
-            order: self.order.clone(),
-            points: self.points.clone(),
-            verify: self.verify,
-            ..QuestionText::default()
-        }
-    }
-}
-
-impl Folds {
-    fn text(&self) -> QuestionText {
-        QuestionText {
-            parameter: self.parameter.clone(),
-            frequency: self.frequency.clone(),
-            method: self.method.clone(),
-            mode: self.mode.clone(),
-            order: self.order.clone(),
-            points: self.points.clone(),
             ..QuestionText::default()
         }
     }

@@ -1,47 +1,216 @@
-//! Torque laws of connections: torque, its derivative and its energy over the twist.
+//! Torque laws of connections: torque, its derivatives, its energy and its averages.
 //!
-//! To add a law: a file here, a variant of [`TorqueLaw`], a line in each of its methods.
+//! To add a law: a file here, a variant of [`TorqueLaw`], a line in each of its methods, and its keys
+//! in `of_element`.
 
+mod clearance;
+mod describing;
+mod friction;
+mod of_element;
+mod one_sided;
+mod pieces;
+mod piecewise_linear;
 mod polynomial;
+mod quadrature;
+mod table;
 
+use halfshaft_numerics::polynomial::Polynomial;
+
+pub use clearance::ClearanceLaw;
+pub use describing::DescribingFunction;
+pub use friction::{Friction, FrictionDescribingFunction};
+pub(crate) use of_element::{law_of_mesh, law_of_shaft};
+pub use one_sided::OneSidedContact;
+pub use pieces::{Piece, Pieces};
+pub use piecewise_linear::{PiecewiseLinearLaw, Stage};
 pub use polynomial::PolynomialLaw;
+pub use table::TableLaw;
 
-/// Torque of a connection as a function of its twist.
+/// Torque of a connection as a function of its twist. Continuous, whatever the law.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TorqueLaw {
-    /// `k1 x + k2 x² + k3 x³ + k5 x⁵ + k7 x⁷`.
+    /// `k0 + k1 x + k2 x² + k3 x³ + k5 x⁵ + k7 x⁷`.
     Polynomial(PolynomialLaw),
+    /// Backlash.
+    Clearance(ClearanceLaw),
+    /// Stages of constant stiffness.
+    PiecewiseLinear(PiecewiseLinearLaw),
+    /// A stop on one side.
+    OneSided(OneSidedContact),
+    /// Measured points.
+    Table(TableLaw),
+}
+
+/// Calls one method of whichever law it is.
+macro_rules! of_each {
+    ($law:expr, $name:ident => $call:expr) => {
+        match $law {
+            TorqueLaw::Polynomial($name) => $call,
+            TorqueLaw::Clearance($name) => $call,
+            TorqueLaw::PiecewiseLinear($name) => $call,
+            TorqueLaw::OneSided($name) => $call,
+            TorqueLaw::Table($name) => $call,
+        }
+    };
 }
 
 impl TorqueLaw {
     /// Torque at twist `x` (rad), N·m.
     #[inline]
     pub fn torque(&self, x: f64) -> f64 {
+        of_each!(self, law => law.torque(x))
+    }
+
+    /// Tangent stiffness at twist `x` (rad), N·m/rad; where it jumps, that on the side towards zero
+    /// twist or below.
+    #[inline]
+    pub fn stiffness(&self, x: f64) -> f64 {
+        of_each!(self, law => law.stiffness(x))
+    }
+
+    /// `d²T/dx²` at twist `x` (rad), N·m/rad²; zero in straight pieces and where the tangent
+    /// stiffness jumps.
+    #[inline]
+    pub fn curvature(&self, x: f64) -> f64 {
         match self {
-            Self::Polynomial(law) => law.torque(x),
+            Self::Polynomial(law) => law.curvature(x),
+            Self::Clearance(law) => law.curvature(x),
+            Self::PiecewiseLinear(_) => 0.0,
+            Self::OneSided(law) => law.curvature(x),
+            Self::Table(law) => law.curvature(x),
         }
     }
 
-    /// Tangent stiffness at twist `x` (rad), N·m/rad.
+    /// Whether the connection is in contact at twist `x` (rad): outside a gap, beyond where a stop
+    /// touches; laws without free play always are.
     #[inline]
-    pub fn stiffness(&self, x: f64) -> f64 {
+    pub fn in_contact(&self, x: f64) -> bool {
         match self {
-            Self::Polynomial(law) => law.stiffness(x),
+            Self::Clearance(law) => x.abs() > law.half_gap(),
+            Self::OneSided(law) => x > law.contact_twist(),
+            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) => true,
         }
     }
 
     /// Potential energy at twist `x` (rad) above the untwisted state, J.
     #[inline]
     pub fn energy(&self, x: f64) -> f64 {
+        of_each!(self, law => law.energy(x))
+    }
+
+    /// Torque and tangent stiffness at many twists: one look at the law for all of them. The
+    /// slices have one length.
+    pub fn evaluate(&self, twists: &[f64], torque: &mut [f64], stiffness: &mut [f64]) {
+        of_each!(self, law => {
+            for ((x, torque), stiffness) in twists.iter().zip(torque).zip(stiffness) {
+                *torque = law.torque(*x);
+                *stiffness = law.stiffness(*x);
+            }
+        });
+    }
+
+    /// Twists at which the tangent stiffness jumps, ascending; none where only higher derivatives
+    /// do.
+    pub fn switching_twists(&self) -> &[f64] {
         match self {
-            Self::Polynomial(law) => law.energy(x),
+            Self::Polynomial(_) | Self::Table(_) => &[],
+            Self::Clearance(law) => law.switching_twists(),
+            Self::PiecewiseLinear(law) => law.switching_twists(),
+            Self::OneSided(law) => law.switching_twists(),
         }
     }
 
-    /// Whether the torque is proportional to the twist.
+    /// Whether the tangent stiffness is the same everywhere. A preload may add a constant: the
+    /// torque is `torque(0) + stiffness(0) x`.
     pub fn is_linear(&self) -> bool {
+        of_each!(self, law => law.is_linear())
+    }
+
+    /// Whether `T(-x) = -T(x)`.
+    pub fn is_odd(&self) -> bool {
+        of_each!(self, law => law.is_odd())
+    }
+
+    /// Name of the kind of law.
+    pub fn name(&self) -> &'static str {
         match self {
-            Self::Polynomial(law) => law.is_linear(),
+            Self::Polynomial(_) => "polynomial",
+            Self::Clearance(_) => "clearance",
+            Self::PiecewiseLinear(_) => "multi-stage",
+            Self::OneSided(_) => "one-sided contact",
+            Self::Table(_) => "table",
         }
+    }
+
+    /// The law where it is a polynomial.
+    pub fn polynomial(&self) -> Option<&PolynomialLaw> {
+        match self {
+            Self::Polynomial(law) => Some(law),
+            _ => None,
+        }
+    }
+
+    /// All twists with the given torque (N·m), ascending.
+    ///
+    /// Where the law is flat at that torque (inside a gap), one twist stands for all of the flat part;
+    /// see [`Pieces::twists_at`].
+    pub fn twists_at(&self, torque: f64) -> Vec<f64> {
+        self.pieces().twists_at(torque)
+    }
+
+    /// The law as polynomials joined end to end.
+    pub fn pieces(&self) -> Pieces {
+        let constant = |torque: f64| Polynomial::new([torque]);
+        let contact = |law: &PolynomialLaw, preload| law.polynomial().add(&constant(preload));
+        match self {
+            Self::Polynomial(law) => Pieces::new(&[], std::iter::once((0.0, law.polynomial()))),
+            Self::Clearance(law) => {
+                let half = law.half_gap();
+                let flank = contact(law.contact(), law.preload());
+                // Mirrored: T(-h - p) - preload = -(T(h + p) - preload).
+                let mut mirrored = law.contact().polynomial().coefficients().to_vec();
+                mirrored.iter_mut().step_by(2).for_each(|k| *k = -*k);
+                let lower = Polynomial::new(mirrored).add(&constant(law.preload()));
+                if half == 0.0 {
+                    return Pieces::new(&[0.0], [(0.0, lower), (0.0, flank)].into_iter());
+                }
+                let inside = constant(law.preload());
+                let all = [(-half, lower), (0.0, inside), (half, flank)];
+                Pieces::new(&[-half, half], all.into_iter())
+            }
+            Self::PiecewiseLinear(law) => {
+                let straight = |(origin, torque, k)| (origin, Polynomial::new([torque, k]));
+                Pieces::new(law.switching_twists(), law.straight_pieces().map(straight))
+            }
+            Self::OneSided(law) => {
+                let touch = law.contact_twist();
+                let flank = contact(law.contact(), law.preload());
+                Pieces::new(
+                    &[touch],
+                    [(touch, constant(law.preload())), (touch, flank)].into_iter(),
+                )
+            }
+            Self::Table(law) => {
+                let cubic = |(origin, coefficients)| (origin, Polynomial::new(coefficients));
+                Pieces::new(law.points(), law.cubic_pieces().map(cubic))
+            }
+        }
+    }
+
+    /// Mean torque and first-harmonic gain over a swing `x = mean + amplitude cos φ` (rad), with
+    /// their derivatives.
+    ///
+    /// Polynomials, stages and gaps or stops with a linear contact in closed form; the others by
+    /// quadrature from break to break, to rounding. At amplitude zero the gain is the tangent
+    /// stiffness.
+    pub fn describing_function(&self, mean: f64, amplitude: f64) -> DescribingFunction {
+        let size = amplitude.abs();
+        let mut result = of_each!(self, law => law.describing_function(mean, size));
+        if amplitude < 0.0 {
+            // Half a turn later it is the same swing.
+            result.mean_by_amplitude = -result.mean_by_amplitude;
+            result.gain_by_amplitude = -result.gain_by_amplitude;
+        }
+        result
     }
 }

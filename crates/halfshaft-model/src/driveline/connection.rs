@@ -35,7 +35,7 @@ pub(super) fn check_connection(line: &Driveline, places: &Places<'_>, found: &mu
     check_torque_nodes(line, &topology, places, found);
     let massless = check_masses(line, &topology, places, found);
     // What hangs on a node that nobody knows cannot be judged.
-    let Some(meant) = as_meant(line, &massless).filter(|line| !line.shafts.is_empty()) else {
+    let Some(meant) = as_meant(line, &massless).filter(has_connection) else {
         return;
     };
     let (topology, _) = Topology::with_contradictions(&meant);
@@ -197,6 +197,11 @@ fn mention(
     mentions.get(node).cloned().unwrap_or_else(|| places.key("inertia", 0, "name"))
 }
 
+/// Whether anything can wind up.
+fn has_connection(line: &Driveline) -> bool {
+    line.connection_names().next().is_some()
+}
+
 /// A shaft between nodes that turn rigidly together either does nothing or locks the line.
 fn check_shafts_turn(
     line: &Driveline,
@@ -217,6 +222,20 @@ fn check_shafts_turn(
                 shaft.name, shaft.from, shaft.to
             );
             found.push(Diagnostic::error(places.key("shaft", index, "to"), message));
+        }
+    }
+    for (index, gear) in line.gears.iter().enumerate().filter(|(_, gear)| gear.is_elastic()) {
+        let group = |node: &str| topology.place(node).map(|(group, _)| group);
+        if group(&gear.input) == group(&gear.output) && gear.input != gear.output {
+            let message = format!(
+                "the elastic mesh of gear \"{}\" joins \"{}\" and \"{}\", which rigid gears hold \
+                 together",
+                gear.name, gear.input, gear.output
+            );
+            found.push(
+                Diagnostic::error(places.key("gear", index, "stiffness"), message)
+                    .hint("leave its stiffness out, or make the gears beside it elastic too"),
+            );
         }
     }
 }
@@ -259,7 +278,11 @@ fn check_can_turn(
     found: &mut Diagnostics,
 ) {
     for locked in network.locked_loops(line, topology.groups.len()) {
-        let place = places.key("shaft", locked.index, "name");
+        let index = match locked.kind {
+            "gear" => line.gears.iter().position(|gear| gear.name == locked.shaft),
+            _ => line.shafts.iter().position(|shaft| shaft.name == locked.shaft),
+        };
+        let place = places.key(locked.kind, index.unwrap_or(0), "name");
         found.push(
             Diagnostic::error(place, locked.to_string())
                 .hint("make the gear ratios on both paths of the loop agree"),

@@ -51,6 +51,16 @@ pub enum ChangeError {
         /// The parameter.
         address: String,
     },
+    /// With this value the stages or points of a law do not ascend.
+    #[error("with {address} = {value}: {reason}")]
+    Law {
+        /// The parameter.
+        address: String,
+        /// The value in SI.
+        value: f64,
+        /// What is wrong.
+        reason: String,
+    },
     /// With this value the gears contradict each other.
     #[error("with {address} = {value}: {reason}")]
     Gears {
@@ -104,6 +114,17 @@ impl Driveline {
         &self.torques
     }
 
+    /// Gears with an elastic mesh, in file order.
+    pub fn meshes(&self) -> impl Iterator<Item = &Gear> + Clone {
+        self.gears.iter().filter(|gear| gear.is_elastic())
+    }
+
+    /// Names of the connections with a twist: shafts, then elastic meshes, in file order.
+    pub fn connection_names(&self) -> impl Iterator<Item = &str> + Clone {
+        let shafts = self.shafts.iter().map(|shaft| shaft.name.as_str());
+        shafts.chain(self.meshes().map(|gear| gear.name.as_str()))
+    }
+
     /// Names of all elements, which are unique.
     pub fn element_names(&self) -> impl Iterator<Item = &str> + Clone {
         let inertias = self.inertias.iter().map(|e| e.name.as_str());
@@ -136,6 +157,11 @@ impl Driveline {
         let mut line = self.clone();
         if !parameter.set(&mut line, value) {
             return Err(ChangeError::NoPlace { address: parameter.address.clone() });
+        }
+        let faults = parameter.shaft(&line).map(Shaft::law_faults).unwrap_or_default();
+        if let Some(fault) = faults.into_iter().next() {
+            let address = parameter.address.clone();
+            return Err(ChangeError::Law { address, value, reason: fault.message });
         }
         if parameter.changes_gears() {
             line.check_turning(parameter, value)?;

@@ -2,10 +2,12 @@
 //!
 //! The tree starts at ground where a shaft is held there, else at the first group. The
 //! twists of its shafts are coordinates of the line; a shaft outside the tree closes a loop
-//! and its twist follows from the others.
+//! and its twist follows from the others. Elastic meshes of gears are shafts here: they follow the
+//! line's own, and the ratio of the gear divides the one at their input.
 
 use super::Driveline;
 use super::topology::Topology;
+use crate::elements::Gear;
 
 /// One end of a shaft: group and speed ratio of the node there; `None` is ground.
 pub type End = Option<(usize, f64)>;
@@ -13,7 +15,7 @@ pub type End = Option<(usize, f64)>;
 /// A shaft of the spanning tree, seen from the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TreeShaft {
-    /// Index of the shaft.
+    /// Index of the shaft, or past those of the mesh.
     pub shaft: usize,
     /// The end nearer to the root; `None` is ground.
     pub parent: End,
@@ -26,7 +28,7 @@ pub struct TreeShaft {
 /// Groups and shafts as a graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network {
-    /// `from` and `to` of every shaft.
+    /// `from` and `to` of every shaft, then input and output of every elastic mesh.
     pub ends: Vec<[End; 2]>,
     /// Whether a shaft is held at ground.
     pub grounded: bool,
@@ -41,11 +43,12 @@ pub struct Network {
 impl Network {
     /// The network of a line with its groups.
     pub fn of(line: &Driveline, topology: &Topology) -> Self {
-        let ends: Vec<[End; 2]> = line
+        let shafts = line
             .shafts
             .iter()
-            .map(|shaft| [topology.place(&shaft.from), topology.place(&shaft.to)])
-            .collect();
+            .map(|shaft| [topology.place(&shaft.from), topology.place(&shaft.to)]);
+        let ends: Vec<[End; 2]> =
+            shafts.chain(line.meshes().map(|gear| mesh_ends(gear, topology))).collect();
         let grounded = ends.iter().flatten().any(Option::is_none);
         let count = topology.groups.len();
         let mut search = Search::new(&ends, count);
@@ -84,33 +87,51 @@ impl Network {
             if (from_speed - to_speed).abs() <= SPEED_TOLERANCE * from_speed.abs() {
                 return None;
             }
-            let shaft = &line.shafts[*index];
-            Some(LockedLoop {
-                shaft: shaft.name.clone(),
-                index: *index,
-                from: shaft.from.clone(),
-                to: shaft.to.clone(),
-                times: from_speed / to_speed,
+            let times = from_speed / to_speed;
+            Some(match line.shafts.get(*index) {
+                Some(shaft) => LockedLoop {
+                    kind: "shaft",
+                    shaft: shaft.name.clone(),
+                    from: shaft.from.clone(),
+                    to: shaft.to.clone(),
+                    times,
+                },
+                None => {
+                    let gear = line.meshes().nth(*index - line.shafts.len())?;
+                    LockedLoop {
+                        kind: "gear",
+                        shaft: gear.name.clone(),
+                        from: gear.input.clone(),
+                        to: gear.output.clone(),
+                        times: times * gear.ratio,
+                    }
+                }
             })
         });
         locked.collect()
     }
 }
 
+/// Ends of an elastic mesh: its twist is `angle(input) / ratio - angle(output)`.
+fn mesh_ends(gear: &Gear, topology: &Topology) -> [End; 2] {
+    let input = topology.place(&gear.input).map(|(group, ratio)| (group, ratio / gear.ratio));
+    [input, topology.place(&gear.output)]
+}
+
 /// A loop of shafts between gears that only turns by winding up.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "the loop that shaft \"{shaft}\" closes cannot turn: \"{from}\" would turn at {times:.6} times \
+    "the loop that {kind} \"{shaft}\" closes cannot turn: \"{from}\" would turn at {times:.6} times \
      the speed of \"{to}\""
 )]
 pub struct LockedLoop {
-    /// The shaft that closes the loop.
+    /// "shaft" or "gear".
+    pub kind: &'static str,
+    /// The shaft, or gear with an elastic mesh, that closes the loop.
     pub shaft: String,
-    /// Its index.
-    pub index: usize,
-    /// Its `from` node.
+    /// Its `from` node, or input.
     pub from: String,
-    /// Its `to` node.
+    /// Its `to` node, or output.
     pub to: String,
     /// Speed that the rest of the loop gives the `from` node over that of the `to` node.
     pub times: f64,

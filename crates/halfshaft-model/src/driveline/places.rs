@@ -32,6 +32,21 @@ impl<'d> Places<'d> {
         table.map_or_else(|| self.document.span.clone(), |table| table.span_of(key))
     }
 
+    /// Place of a key in an entry of a list of tables of an element, or of the list itself.
+    pub(crate) fn nested(
+        &self,
+        list: &str,
+        index: usize,
+        key: &str,
+        entry: Option<(usize, &str)>,
+    ) -> Range<usize> {
+        let inside = entry.and_then(|(number, inner)| {
+            let entries = self.table(list, index)?.tables(key);
+            entries.get(number).map(|table| table.span_of(inner))
+        });
+        inside.unwrap_or_else(|| self.key(list, index, key))
+    }
+
     /// Whether the element has a sound `key`.
     pub(crate) fn has(&self, list: &str, index: usize, key: &str) -> bool {
         self.table(list, index).is_some_and(|table| table.entry(key).is_some())
@@ -52,11 +67,6 @@ impl<'d> Places<'d> {
     pub(crate) fn all_sound(&self, list: &str) -> bool {
         !self.document.lacks_any_of(&[list])
             && self.document.tables(list).iter().all(CheckedTable::is_sound)
-    }
-
-    /// Whether the file has the list at all.
-    pub(crate) fn mentions(&self, list: &str) -> bool {
-        self.document.mentions(list)
     }
 
     /// Whether the names of all elements are known.

@@ -1,6 +1,6 @@
 //! Which nodes turn rigidly together, and at which ratios.
 //!
-//! Ideal gears join nodes into groups with one degree of freedom each. A group is led by
+//! Rigid gears join nodes into groups with one degree of freedom each. A group is led by
 //! its reference node; every node turns at a fixed multiple of the reference. The reference
 //! is the node farthest down the line (an output that is no input), so that reduced
 //! inertias are "at the wheel" as driveline engineers state them.
@@ -89,7 +89,8 @@ impl Topology {
         let mut sets = RatioSets::new(names.len());
         let mut roles = vec![Role::default(); names.len()];
         let mut contradictions = Vec::new();
-        for (index, gear) in line.gears.iter().enumerate() {
+        let rigid = line.gears.iter().enumerate().filter(|(_, gear)| !gear.is_elastic());
+        for (index, gear) in rigid {
             let (Some(input), Some(output)) = (find(&gear.input), find(&gear.output)) else {
                 continue; // cannot be: the ends of gears are among the names
             };

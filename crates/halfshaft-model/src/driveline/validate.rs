@@ -15,6 +15,7 @@ use crate::elements::MeanTorque;
 pub(crate) fn validate(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
     check_names(line, places, found);
     check_ends(line, places, found);
+    check_laws(line, places, found);
     check_torques(line, places, found);
     check_connection(line, places, found);
 }
@@ -70,9 +71,7 @@ fn check_ends(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
             let message = format!("shaft \"{}\" has the same node at both ends", shaft.name);
             found.push(Diagnostic::error(places.key("shaft", index, "to"), message));
         }
-        let silent =
-            shaft.polynomial().iter().all(|k| *k == 0.0) && shaft.damping_nm_s_per_rad == 0.0;
-        if silent && places.is_sound("shaft", index) {
+        if shaft.is_silent() && places.is_sound("shaft", index) {
             let message = format!("shaft \"{}\" carries no torque at all", shaft.name);
             found.push(
                 Diagnostic::error(places.key("shaft", index, "stiffness"), message)
@@ -80,12 +79,25 @@ fn check_ends(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
             );
         }
     }
-    if line.shafts.is_empty() && places.mentions("shaft") && places.all_sound("shaft") {
+    let nothing = line.connection_names().next().is_none();
+    if nothing && places.all_sound("shaft") && places.all_sound("gear") {
         let place = places.key("inertia", 0, "name");
         found.push(
             Diagnostic::error(place, "the line has no [[shaft]], so nothing can wind up")
                 .hint("add a [[shaft]] with from, to and stiffness; \"ground\" is the fixed node"),
         );
+    }
+}
+
+/// Stages and points that do not make a law.
+fn check_laws(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
+    let sound =
+        line.shafts.iter().enumerate().filter(|(index, _)| places.is_sound("shaft", *index));
+    for (index, shaft) in sound {
+        for fault in shaft.law_faults() {
+            let place = places.nested("shaft", index, fault.list, fault.entry);
+            found.push(Diagnostic::error(place, fault.message).hint(fault.hint));
+        }
     }
 }
 

@@ -2,11 +2,22 @@
 
 use serde::Serialize;
 
+use super::measured::{MEASURED, MeasuredLaw};
+use super::stage::{STAGE, Stage};
 use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
 
-/// A massless torsional spring with a polynomial law and viscous damping in parallel:
-/// `torque = c x' + k1 x + k2 x² + k3 x³ + k5 x⁵ + k7 x⁷`, `x = angle(from) - angle(to)`.
+/// Speed within which dry friction is smoothed where the file does not say, rad/s.
+///
+/// A tenth of an rpm: small against the rates of twist of any vibration worth computing (1 mrad at
+/// 10 Hz has 0.06 rad/s), large enough to integrate.
+pub const FRICTION_SPEED_RAD_S: f64 = 0.01;
+
+/// A massless torsional spring with viscous damping and dry friction in parallel,
+/// `x = angle(from) - angle(to)`.
+///
+/// The spring is one of: a polynomial `k1 x + k2 x² + k3 x³ + k5 x⁵ + k7 x⁷`; the same of the
+/// penetration beyond a clearance or a contact; stages; a measured table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shaft {
     /// Name of the element; its channels are `<name>.twist` and so on.
@@ -15,7 +26,7 @@ pub struct Shaft {
     pub from: String,
     /// Node whose angle counts negative in the twist; may be ground.
     pub to: String,
-    /// Linear stiffness `k1`, N·m/rad.
+    /// Linear stiffness `k1`, N·m/rad; 0 where stages or a table give the torque.
     pub stiffness_nm_per_rad: f64,
     /// `k2`, N·m/rad²: makes drive and coast side differ.
     pub quadratic_nm_per_rad2: f64,
@@ -27,10 +38,50 @@ pub struct Shaft {
     pub septic_nm_per_rad7: f64,
     /// Viscous damping `c`, N·m·s/rad.
     pub damping_nm_s_per_rad: f64,
+    /// Whether the damping acts at every twist, or only in contact beyond a clearance.
+    #[serde(skip_serializing_if = "is_true")]
+    pub damps_in_gap: bool,
+    /// Torque at zero twist beside the law, N·m.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub preload_nm: f64,
+    /// Total clearance, rad: the polynomial is then of the penetration beyond half of it, on both
+    /// sides alike.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance_rad: Option<f64>,
+    /// Twist at which a stop touches, rad: the polynomial is then of the penetration beyond it, and
+    /// there is no torque before.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_rad: Option<f64>,
+    /// Stages from zero twist outwards, for positive twist and, without `coast_stages`, for negative.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<Stage>,
+    /// Stages for negative twist, where they differ.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub coast_stages: Vec<Stage>,
+    /// Measured points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<MeasuredLaw>,
+    /// Dry friction torque, N·m.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub friction_nm: f64,
+    /// Speed within which the friction is smoothed, rad/s.
+    #[serde(skip_serializing_if = "is_default_speed")]
+    pub friction_speed_rad_s: f64,
 }
 
-const PLANNED_LAW: &str = "this version knows polynomial shafts: stiffness, quadratic, cubic, \
-     quintic, septic and damping";
+// The digest of a line is made from what is serialised; a key at its default must not change it.
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+pub(super) fn is_true(value: &bool) -> bool {
+    *value
+}
+
+fn is_default_speed(value: &f64) -> bool {
+    (*value - FRICTION_SPEED_RAD_S).abs() == 0.0
+}
+
 const PLANNED_DIMENSIONS: &str = "this version takes the stiffness of a shaft: stiffness = \
      \"... N·m/rad\" (for a round bar shear modulus · π (D⁴ - d⁴) / (32 · length))";
 
@@ -38,11 +89,38 @@ const fn stiffness(name: &'static str, degree: u8, doc: &'static str) -> KeySpec
     KeySpec::new(name, ValueSpec::Quantity(QuantityKind::Stiffness(degree), Sign::Any), doc)
 }
 
+const fn quantity(
+    name: &'static str,
+    kind: QuantityKind,
+    sign: Sign,
+    doc: &'static str,
+) -> KeySpec {
+    KeySpec::new(name, ValueSpec::Quantity(kind, sign), doc)
+}
+
+const fn planned(name: &'static str, doc: &'static str) -> KeySpec {
+    KeySpec::new(name, ValueSpec::Text, doc).refused(PLANNED_DIMENSIONS)
+}
+
+/// Where damping acts: at every twist, or only in contact.
+const DAMPING_WORDS: [&str; 2] = ["always", IN_CONTACT];
+/// Damping that acts in contact only.
+pub(super) const IN_CONTACT: &str = "in contact";
+
+pub(super) const DAMPING_ACTS: KeySpec = KeySpec::new(
+    "damping_acts",
+    ValueSpec::Choice(&DAMPING_WORDS),
+    "Where the damping acts: \"always\", inside a clearance or before a contact too, or only \
+     \"in contact\", so that there is no torque at all in free play. Default \"always\".",
+);
+
 /// Keys of `[[shaft]]`.
 pub static SHAFT: TableSpec = TableSpec {
     name: "shaft",
     doc: "A torsional connection between two nodes; \"ground\" is the fixed node. \
-          torque = c x' + k1 x + k2 x² + k3 x³ + k5 x⁵ + k7 x⁷ with x = angle(from) - angle(to).",
+          torque = p(x) + c x' + friction with x = angle(from) - angle(to). The law p is one of: \
+          k1 x + k2 x² + k3 x³ + k5 x⁵ + k7 x⁷; the same of the penetration beyond a clearance or a \
+          contact; stages; a table.",
     keys: &[
         KeySpec::new("name", ValueSpec::Text, "Name of the element.").required(),
         KeySpec::new(
@@ -57,56 +135,116 @@ pub static SHAFT: TableSpec = TableSpec {
             "Node whose angle counts negative in the twist.",
         )
         .required(),
-        KeySpec::new(
+        quantity(
             "stiffness",
-            ValueSpec::Quantity(QuantityKind::Stiffness(1), Sign::NonNegative),
-            "Linear stiffness k1.",
-        )
-        .required(),
-        KeySpec::new(
+            QuantityKind::Stiffness(1),
+            Sign::NonNegative,
+            "Linear stiffness k1. Required, unless stages or a table give the torque.",
+        ),
+        quantity(
             "damping",
-            ValueSpec::Quantity(QuantityKind::Damping, Sign::NonNegative),
+            QuantityKind::Damping,
+            Sign::NonNegative,
             "Viscous damping c in parallel. Default 0.",
         ),
+        DAMPING_ACTS,
         stiffness("quadratic", 2, "k2: makes drive and coast side differ. Default 0."),
         stiffness("cubic", 3, "k3: hardening above zero, softening below. Default 0."),
         stiffness("quintic", 5, "k5. Default 0."),
         stiffness("septic", 7, "k7. Default 0."),
-        KeySpec::new("stages", ValueSpec::Text, "Stages of a multi-stage damper.")
-            .refused(PLANNED_LAW),
-        KeySpec::new("friction", ValueSpec::Text, "Dry friction torque in parallel.")
-            .refused(PLANNED_LAW),
-        KeySpec::new("clearance", ValueSpec::Text, "Total backlash.").refused(PLANNED_LAW),
-        KeySpec::new("table", ValueSpec::Text, "Measured law.").refused(PLANNED_LAW),
-        KeySpec::new("length", ValueSpec::Text, "Length.").refused(PLANNED_DIMENSIONS),
-        KeySpec::new("outer_diameter", ValueSpec::Text, "Outer diameter.")
-            .refused(PLANNED_DIMENSIONS),
-        KeySpec::new("inner_diameter", ValueSpec::Text, "Inner diameter.")
-            .refused(PLANNED_DIMENSIONS),
-        KeySpec::new("shear_modulus", ValueSpec::Text, "Shear modulus.")
-            .refused(PLANNED_DIMENSIONS),
-        KeySpec::new("density", ValueSpec::Text, "Density.").refused(PLANNED_DIMENSIONS),
-        KeySpec::new("elements", ValueSpec::Text, "Number of elements.")
-            .refused(PLANNED_DIMENSIONS),
+        quantity(
+            "clearance",
+            QuantityKind::Angle,
+            Sign::NonNegative,
+            "Total backlash: no torque while |x| is less than half of it; outside, the polynomial acts \
+             on the penetration |x| - clearance/2, with the sign of x. A mean torque moves the \
+             working point onto a flank by itself. Optional.",
+        ),
+        quantity(
+            "contact",
+            QuantityKind::Angle,
+            Sign::Any,
+            "A stop on one side: no torque while x is less than this; above, the polynomial acts on \
+             x - contact. For a stop on the other side exchange from and to. Optional.",
+        ),
+        KeySpec::new(
+            "stages",
+            ValueSpec::Tables(&STAGE),
+            "Stages of constant stiffness in place of the polynomial, from zero twist outwards; the \
+             same on both sides unless there are coast_stages.",
+        ),
+        KeySpec::new(
+            "coast_stages",
+            ValueSpec::Tables(&STAGE),
+            "Stages for negative twist where they differ; their twists are written without a sign.",
+        ),
+        KeySpec::new(
+            "table",
+            ValueSpec::TableOrText(&MEASURED),
+            "Measured law in place of the polynomial: points, or the path of a CSV file.",
+        ),
+        quantity(
+            "preload",
+            QuantityKind::Torque,
+            Sign::Any,
+            "Torque at zero twist, added to any law. Default 0.",
+        ),
+        quantity(
+            "friction",
+            QuantityKind::Torque,
+            Sign::NonNegative,
+            "Dry friction torque in parallel: friction · tanh(x' / friction_speed). Default 0.",
+        ),
+        quantity(
+            "friction_speed",
+            QuantityKind::Speed,
+            Sign::Positive,
+            "Speed within which the friction is smoothed: a shaft that sticks creeps with less than \
+             about this. Default 0.01 rad/s.",
+        ),
+        planned("length", "Length."),
+        planned("outer_diameter", "Outer diameter."),
+        planned("inner_diameter", "Inner diameter."),
+        planned("shear_modulus", "Shear modulus."),
+        planned("density", "Density."),
+        planned("elements", "Number of elements."),
     ],
 };
 
 impl Shaft {
     pub(crate) fn read(table: &CheckedTable) -> Self {
+        // A stiffness that is missing has been told, unless the torque comes from elsewhere.
+        let other_law = table.mentions("stages") || table.mentions("table");
+        let stiffness = if other_law {
+            table.number_or("stiffness", 0.0)
+        } else {
+            table.number_or_stand_in("stiffness")
+        };
+        let stages = |key| table.tables(key).iter().map(Stage::read).collect();
         Self {
             name: table.text_or_empty("name"),
             from: table.text_or_empty("from"),
             to: table.text_or_empty("to"),
-            stiffness_nm_per_rad: table.number_or_stand_in("stiffness"),
+            stiffness_nm_per_rad: stiffness,
             quadratic_nm_per_rad2: table.number_or("quadratic", 0.0),
             cubic_nm_per_rad3: table.number_or("cubic", 0.0),
             quintic_nm_per_rad5: table.number_or("quintic", 0.0),
             septic_nm_per_rad7: table.number_or("septic", 0.0),
             damping_nm_s_per_rad: table.number_or("damping", 0.0),
+            damps_in_gap: table.word("damping_acts") != Some(IN_CONTACT),
+            preload_nm: table.number_or("preload", 0.0),
+            clearance_rad: table.number("clearance"),
+            contact_rad: table.number("contact"),
+            stages: stages("stages"),
+            coast_stages: stages("coast_stages"),
+            table: table.table("table").map(MeasuredLaw::read),
+            friction_nm: table.number_or("friction", 0.0),
+            friction_speed_rad_s: table.number_or("friction_speed", FRICTION_SPEED_RAD_S),
         }
     }
 
-    /// Coefficients of the spring torque, ascending from the constant (always zero).
+    /// Coefficients of the polynomial, ascending from the constant (always zero; see
+    /// [`Shaft::preload_nm`]).
     pub fn polynomial(&self) -> [f64; 8] {
         [
             0.0,
@@ -120,16 +258,55 @@ impl Shaft {
         ]
     }
 
-    /// The numeric value behind a key of this element.
+    /// Whether the torque is a polynomial, of the twist or of a penetration.
+    fn has_polynomial(&self) -> bool {
+        self.stages.is_empty() && self.coast_stages.is_empty() && self.table.is_none()
+    }
+
+    /// Whether the shaft never carries any torque.
+    pub(crate) fn is_silent(&self) -> bool {
+        let flat = |stages: &[Stage]| stages.iter().all(|stage| stage.stiffness_nm_per_rad == 0.0);
+        let table = self.table.as_ref().map_or(&[][..], |table| &table.torque_nm);
+        self.polynomial().iter().all(|k| *k == 0.0)
+            && flat(&self.stages)
+            && flat(&self.coast_stages)
+            && table.iter().all(|torque| *torque == 0.0)
+            && [self.damping_nm_s_per_rad, self.friction_nm, self.preload_nm] == [0.0; 3]
+    }
+
+    /// The numeric value behind a key of this element; keys of another law than the shaft's have
+    /// none.
     pub fn parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
+        let polynomial = self.has_polynomial();
         match key {
-            "stiffness" => Some(&mut self.stiffness_nm_per_rad),
-            "quadratic" => Some(&mut self.quadratic_nm_per_rad2),
-            "cubic" => Some(&mut self.cubic_nm_per_rad3),
-            "quintic" => Some(&mut self.quintic_nm_per_rad5),
-            "septic" => Some(&mut self.septic_nm_per_rad7),
             "damping" => Some(&mut self.damping_nm_s_per_rad),
-            _ => None,
+            "preload" => Some(&mut self.preload_nm),
+            "friction" => Some(&mut self.friction_nm),
+            "friction_speed" => Some(&mut self.friction_speed_rad_s),
+            "contact" => self.contact_rad.as_mut(),
+            "stiffness" => Some(&mut self.stiffness_nm_per_rad).filter(|_| polynomial),
+            "quadratic" => Some(&mut self.quadratic_nm_per_rad2).filter(|_| polynomial),
+            "cubic" => Some(&mut self.cubic_nm_per_rad3).filter(|_| polynomial),
+            "quintic" => Some(&mut self.quintic_nm_per_rad5).filter(|_| polynomial),
+            "septic" => Some(&mut self.septic_nm_per_rad7).filter(|_| polynomial),
+            "clearance" if polynomial && self.contact_rad.is_none() => {
+                Some(self.clearance_rad.get_or_insert(0.0))
+            }
+            _ => self.nested_parameter_mut(key),
         }
+    }
+
+    /// The numeric value behind `stages.1.until`, `table.torque.1` and the like.
+    fn nested_parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
+        let (list, rest) = key.split_once('.')?;
+        let stages = match list {
+            "table" => return self.table.as_mut()?.parameter_mut(rest),
+            "stages" => &mut self.stages,
+            "coast_stages" => &mut self.coast_stages,
+            _ => return None,
+        };
+        let (number, key) = rest.split_once('.')?;
+        let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+        stages.get_mut(index)?.parameter_mut(key)
     }
 }

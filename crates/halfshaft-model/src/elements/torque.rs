@@ -29,7 +29,8 @@ pub struct Harmonic {
 }
 
 /// An external torque, positive in the direction of positive angle:
-/// `mean + Σ amplitude · cos(order Ω t + phase) + pulse(t)`.
+/// `mean + Σ amplitude · cos(order Ω t + phase) + pulse(t)`, the amplitudes times
+/// `(Ω / reference speed)^power` where they grow with the speed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Torque {
     /// Name of the element.
@@ -44,6 +45,12 @@ pub struct Torque {
     pub frequency_rad_s: Option<f64>,
     /// A part that acts once.
     pub pulse: Option<Pulse>,
+    /// Power of the speed with which all harmonics grow; `None` where they do not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_power: Option<f64>,
+    /// Speed at which the harmonics have their amplitudes, rad/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference_speed_rad_s: Option<f64>,
 }
 
 /// The word for a mean torque that balances the others.
@@ -76,7 +83,8 @@ pub static HARMONIC: TableSpec = TableSpec {
 pub static TORQUE: TableSpec = TableSpec {
     name: "torque",
     doc: "An external torque on a node, positive in the direction of positive angle: \
-          mean + Σ amplitude · cos(order · Ω t + phase) + pulse(t).",
+          mean + Σ amplitude · cos(order · Ω t + phase) + pulse(t); with a speed_power every amplitude \
+          times (Ω / reference_speed)^speed_power.",
     keys: &[
         KeySpec::new("name", ValueSpec::Text, "Name of the element.").required(),
         KeySpec::new("on", ValueSpec::Node { ground: false }, "Node it acts on.").required(),
@@ -94,6 +102,16 @@ pub static TORQUE: TableSpec = TableSpec {
             "frequency",
             ValueSpec::Quantity(QuantityKind::Speed, Sign::Positive),
             "A fixed speed that takes the place of Ω in this torque, for `simulate`. Optional.",
+        ),
+        KeySpec::new(
+            "speed_power",
+            ValueSpec::Quantity(QuantityKind::Number, Sign::NonNegative),
+            "Power of Ω with which all harmonics of this torque grow: 2 for an unbalance. Optional.",
+        ),
+        KeySpec::new(
+            "reference_speed",
+            ValueSpec::Quantity(QuantityKind::Speed, Sign::Positive),
+            "Ω at which the harmonics have the stated amplitudes; goes with speed_power.",
         ),
         KeySpec::new("pulse", ValueSpec::Table(&PULSE), "A part that acts once."),
     ],
@@ -138,6 +156,8 @@ impl Torque {
             harmonics,
             frequency_rad_s: table.number("frequency"),
             pulse: table.table("pulse").map(Pulse::read),
+            speed_power: table.number("speed_power"),
+            reference_speed_rad_s: table.number("reference_speed"),
         }
     }
 
@@ -158,6 +178,11 @@ impl Torque {
                 }
             }
             "frequency" => Some(self.frequency_rad_s.get_or_insert(0.0)),
+            // Without a reference a power says nothing.
+            "speed_power" if self.reference_speed_rad_s.is_some() => {
+                Some(self.speed_power.get_or_insert(0.0))
+            }
+            "reference_speed" => self.reference_speed_rad_s.as_mut(),
             _ => {
                 let (index, key) = harmonic_key(key)?;
                 self.harmonics.get_mut(index)?.parameter_mut(key)

@@ -128,6 +128,41 @@ impl CheckedTable {
         }
     }
 
+    /// A sound table of lists of numbers, all of which stand at `span`.
+    pub(super) fn of_numbers<const N: usize>(
+        span: Range<usize>,
+        lists: [(&'static str, Vec<f64>); N],
+    ) -> Self {
+        let entry = |(key, numbers): (&'static str, Vec<f64>)| {
+            (key, Entry { span: span.clone(), value: Checked::Numbers(numbers) })
+        };
+        let entries = lists.into_iter().map(entry).collect();
+        Self { span, entries, sound: true, ..Self::default() }
+    }
+
+    /// Puts another value in the place of one.
+    pub(super) fn replace(&mut self, key: &str, value: Checked) {
+        if let Some((_, entry)) = self.entries.iter_mut().find(|(name, _)| *name == key) {
+            entry.value = value;
+        }
+    }
+
+    /// Makes a key unsound that turned out to be so.
+    pub(super) fn spoil(&mut self, key: &str) {
+        if let Some(at) = self.entries.iter().position(|(name, _)| *name == key) {
+            self.unsound.push(self.entries.remove(at).0);
+            self.sound = false;
+        }
+    }
+
+    pub(super) fn tables_mut(&mut self, key: &str) -> &mut [Self] {
+        let entry = self.entries.iter_mut().find(|(name, _)| *name == key);
+        match entry.map(|(_, entry)| &mut entry.value) {
+            Some(Checked::Tables(tables)) => tables,
+            _ => &mut [],
+        }
+    }
+
     pub(crate) fn table(&self, key: &str) -> Option<&Self> {
         match &self.entry(key)?.value {
             Checked::Table(table) => Some(table),

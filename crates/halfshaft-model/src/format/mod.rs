@@ -6,6 +6,7 @@
 
 mod checked;
 mod limits;
+mod measured_file;
 mod model_file;
 mod reader;
 mod reference;

@@ -1,11 +1,15 @@
 //! The tables of a model file and the way from its text to a [`Driveline`].
 
+use std::path::PathBuf;
+
 use crate::diagnostic::{Diagnostic, Diagnostics, Source, with_article};
 use crate::driveline::{Driveline, Places, validate};
 use crate::elements::{
-    GEAR, Gear, INERTIA, Inertia, PULSE, PulseShape, SHAFT, Shaft, TORQUE, Torque,
+    GEAR, Gear, INERTIA, Inertia, PULSE, PulseShape, SHAFT, Shaft, TORQUE, Torque, check_gear,
+    check_shaft, check_torque,
 };
 use crate::format::checked::CheckedTable;
+use crate::format::measured_file;
 use crate::format::reader::{OtherFile, read_document};
 use crate::format::spec::{KeySpec, TableSpec, ValueSpec};
 use crate::parameter::{self, AddressError};
@@ -22,8 +26,8 @@ pub static MODEL: TableSpec = TableSpec {
         KeySpec::new("name", ValueSpec::Text, "Name of the line, for titles.").required(),
         KeySpec::new("description", ValueSpec::Text, "What the line is; free text."),
         KeySpec::new("inertia", ValueSpec::Tables(&INERTIA), "Rigid bodies.").required(),
-        KeySpec::new("gear", ValueSpec::Tables(&GEAR), "Ideal gears."),
-        KeySpec::new("shaft", ValueSpec::Tables(&SHAFT), "Torsional connections.").required(),
+        KeySpec::new("gear", ValueSpec::Tables(&GEAR), "Gears, rigid or elastic."),
+        KeySpec::new("shaft", ValueSpec::Tables(&SHAFT), "Torsional connections."),
         KeySpec::new("torque", ValueSpec::Tables(&TORQUE), "External torques."),
     ],
 };
@@ -58,12 +62,14 @@ pub fn read_model(
         );
         return Err(found);
     }
-    let Some(document) = read_document(&text, &MODEL, &A_STUDY, &mut found) else {
+    let Some(mut document) = read_document(&text, &MODEL, &A_STUDY, &mut found) else {
         return Err(found);
     };
-    for torque in document.tables("torque") {
-        check_pulse(torque, &mut found);
+    let path = PathBuf::from(&found.sources[0].name);
+    for shaft in document.tables_mut("shaft") {
+        measured_file::resolve(shaft, &path, &mut found);
     }
+    check_keys(&document, &mut found);
     let (mut line, places) = build(&document);
     for setting in settings {
         apply_setting(&mut line, setting, &places, &mut found);
@@ -87,6 +93,16 @@ fn build(document: &CheckedTable) -> (Driveline, Places<'_>) {
         torques: places.read("torque", Torque::read),
     };
     (line, places)
+}
+
+/// What the lists of keys cannot say: which keys go together.
+fn check_keys(document: &CheckedTable, found: &mut Diagnostics) {
+    document.tables("gear").iter().for_each(|gear| check_gear(gear, found));
+    document.tables("shaft").iter().for_each(|shaft| check_shaft(shaft, found));
+    for torque in document.tables("torque") {
+        check_torque(torque, found);
+        check_pulse(torque, found);
+    }
 }
 
 /// A pulse needs other keys for each shape, which the list of keys cannot say.

@@ -189,6 +189,13 @@ fn check_key(
             }
             _ => wrong_type(key.name, value, "a table { ... }", found),
         },
+        ValueSpec::TableOrText(spec) => match value.get_ref() {
+            DeValue::Table(table) => {
+                Some(Checked::Table(check_table(table, value.span(), spec, found)))
+            }
+            DeValue::String(text) => Some(Checked::Text(text.clone().into_owned())),
+            _ => wrong_type(key.name, value, "a table { ... } or the path of a file", found),
+        },
         ValueSpec::Tables(spec) => tables(key, value, spec, found),
     }
 }

@@ -38,15 +38,31 @@ fn section(page: &mut String, spec: &TableSpec, heading: &str) {
             names.join(", ")
         );
     }
-    for key in spec.keys {
-        nested(page, key);
+    for (index, key) in spec.keys.iter().enumerate() {
+        // Keys that hold the same kind of table share its section.
+        let own = table_of(key);
+        let told = spec.keys[..index].iter().filter_map(table_of);
+        if own.is_none_or(|own| told.into_iter().all(|other| !std::ptr::eq(own, other))) {
+            nested(page, key);
+        }
+    }
+}
+
+fn table_of(key: &KeySpec) -> Option<&'static TableSpec> {
+    match key.value {
+        ValueSpec::Tables(spec) | ValueSpec::Table(spec) | ValueSpec::TableOrText(spec) => {
+            Some(spec)
+        }
+        _ => None,
     }
 }
 
 fn nested(page: &mut String, key: &KeySpec) {
     match key.value {
         ValueSpec::Tables(spec) => section(page, spec, &format!("`[[{}]]`", key.name)),
-        ValueSpec::Table(spec) => section(page, spec, &format!("`{} = {{ ... }}`", key.name)),
+        ValueSpec::Table(spec) | ValueSpec::TableOrText(spec) => {
+            section(page, spec, &format!("`{} = {{ ... }}`", key.name))
+        }
         _ => {}
     }
 }
@@ -68,6 +84,7 @@ fn value(spec: &ValueSpec) -> String {
         ValueSpec::Choice(words) => format!("`\"{}\"`", words.join("\"`, `\"")),
         ValueSpec::Texts => "list of texts".to_owned(),
         ValueSpec::Table(spec) => format!("table, see {}", spec.name),
+        ValueSpec::TableOrText(spec) => format!("table, see {}, or text", spec.name),
         ValueSpec::Tables(spec) => format!("list of tables, see {}", spec.name),
     }
 }

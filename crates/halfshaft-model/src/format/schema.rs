@@ -68,6 +68,9 @@ fn value(spec: &ValueSpec) -> Value {
         ValueSpec::Choice(words) => json!({ "type": "string", "enum": words }),
         ValueSpec::Texts => json!({ "type": "array", "items": { "type": "string" } }),
         ValueSpec::Table(spec) => table(spec),
+        ValueSpec::TableOrText(spec) => {
+            json!({ "anyOf": [{ "type": "string" }, table(spec)] })
+        }
         ValueSpec::Tables(spec) => json!({ "type": "array", "items": table(spec) }),
     }
 }

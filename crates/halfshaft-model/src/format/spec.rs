@@ -33,6 +33,8 @@ pub enum ValueSpec {
     Texts,
     /// A table inside this one.
     Table(&'static TableSpec),
+    /// A table inside this one, or a text that says where to find it.
+    TableOrText(&'static TableSpec),
     /// A list of tables.
     Tables(&'static TableSpec),
 }

@@ -116,7 +116,7 @@ fn parse_channel(name: &str, line: &Driveline) -> Result<Channel, (String, Strin
     let known: Vec<&str> = if of_node {
         topology.nodes.iter().map(|node| node.name.as_str()).collect()
     } else {
-        line.shafts().iter().map(|shaft| shaft.name.as_str()).collect()
+        line.connection_names().collect()
     };
     if known.contains(&owner) {
         return Ok(Channel { owner: owner.to_owned(), quantity });

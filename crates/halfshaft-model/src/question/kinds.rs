@@ -230,14 +230,41 @@ impl Default for ShockQuestion {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResonanceMethod {
-    /// Closed form: averaging of one mode.
+    /// As many harmonics as the tolerance needs, continued by arclength.
     #[default]
+    HarmonicBalance,
+    /// One harmonic of the whole line with one nonlinear connection: all responses.
+    FirstHarmonic,
+    /// Closed form: averaging of one mode.
     Averaged,
 }
 
 impl ResonanceMethod {
     /// All methods with their names.
-    pub const ALL: [(&'static str, Self); 1] = [("averaged", Self::Averaged)];
+    pub const ALL: [(&'static str, Self); 3] = [
+        ("harmonic-balance", Self::HarmonicBalance),
+        ("first-harmonic", Self::FirstHarmonic),
+        ("averaged", Self::Averaged),
+    ];
+    /// The names alone.
+    pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
+}
+
+/// How the Floquet multipliers of periodic responses are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StabilityMethod {
+    /// The variational equation integrated over one period.
+    #[default]
+    Monodromy,
+    /// Eigenvalues of Hill's matrix of the same harmonics.
+    Hill,
+}
+
+impl StabilityMethod {
+    /// All methods with their names.
+    pub const ALL: [(&'static str, Self); 2] =
+        [("monodromy", Self::Monodromy), ("hill", Self::Hill)];
     /// The names alone.
     pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
 }
@@ -251,23 +278,44 @@ pub struct ResonanceQuestion {
     pub method: ResonanceMethod,
     /// Which elastic mode, from 1.
     pub mode: usize,
-    /// Which order excites; `None` for every order that meets the mode in the range.
+    /// Which order excites; `None` for every order that meets the mode in the range. Harmonic
+    /// balance takes all orders together.
     pub order: Option<f64>,
-    /// At how many frequencies all responses are listed.
-    pub points: usize,
-    /// Whether to integrate the full equations at chosen points.
+    /// At how many frequencies all responses are listed; harmonic balance takes it for about how
+    /// many samples a branch has, `None` for as many as its shape asks.
+    pub points: Option<usize>,
+    /// Whether to hold chosen responses against integration of the full equations.
     pub verify: bool,
+    /// Number of harmonics of the response; `None` for as many as the tolerance needs.
+    pub harmonics: Option<usize>,
+    /// Error of the waveform that is tolerated, relative to its amplitude.
+    pub tolerance: f64,
+    /// How the Floquet multipliers are found.
+    pub stability: StabilityMethod,
+    /// Whether backbone curves are wanted.
+    pub backbone: bool,
+    /// A number of the line to go through in place of the excitation speed, which then stays at the
+    /// lower end of `frequency`.
+    pub parameter: Option<ParameterRange>,
 }
+
+/// Samples that closed forms list where nobody says how many.
+pub const DEFAULT_POINTS: usize = 1000;
 
 impl Default for ResonanceQuestion {
     fn default() -> Self {
         Self {
             frequency: None,
-            method: ResonanceMethod::Averaged,
+            method: ResonanceMethod::default(),
             mode: 1,
             order: None,
-            points: 1000,
+            points: None,
             verify: false,
+            harmonics: None,
+            tolerance: 1e-6,
+            stability: StabilityMethod::default(),
+            backbone: false,
+            parameter: None,
         }
     }
 }
@@ -299,4 +347,8 @@ pub struct FoldsQuestion {
     pub order: Option<f64>,
     /// About how many points describe a curve.
     pub points: usize,
+    /// Number of harmonics of the response; `None` for as many as the tolerance needs.
+    pub harmonics: Option<usize>,
+    /// Error of the waveform that is tolerated, relative to its amplitude.
+    pub tolerance: f64,
 }

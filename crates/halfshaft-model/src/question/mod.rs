@@ -4,16 +4,18 @@
 //! into a [`Question`] in SI or into every mistake at once. The analyses take it from there.
 
 mod channel;
-mod fold_axis;
 mod kinds;
+mod parameter_axis;
+mod periodic;
 mod read;
 mod text;
 mod values;
 
 pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
-    FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod, ResonanceQuestion,
-    ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Start, Verb,
+    DEFAULT_POINTS, FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod,
+    ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion,
+    StabilityMethod, Start, Verb,
 };
 pub use read::read;
 pub use text::{OptionError, QuestionText};

@@ -1,8 +1,7 @@
 //! From the words of a question to the question.
 
 use super::kinds::{
-    FoldsQuestion, ModesQuestion, Question, ResonanceQuestion, ShockEquation, ShockMethod,
-    ShockQuestion, SimulateQuestion, Verb,
+    ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Verb,
 };
 use super::text::{OptionError, QuestionText};
 use super::values::Reader;
@@ -93,44 +92,13 @@ impl Reader<'_> {
     /// effect. A tolerance is none of them: it bounds an error that a closed form does not make.
     fn unused_by(&mut self, method: ShockMethod) {
         let text = self.text;
-        let mut refuse = |option, written: Option<&str>, message: &str, hint: &str| {
-            if let Some(written) = written {
-                self.errors.push(OptionError::new(option, written, message, hint));
-            }
-        };
         if method == ShockMethod::MultipleScales {
             return;
         }
         let message = "only the method multiple-scales uses it";
         let hint = "add --method multiple-scales, or leave it out";
-        refuse("order", text.order.as_deref(), message, hint);
-        refuse("equation", text.equation.as_deref(), message, hint);
-        refuse("printed-velocity", text.printed_velocity.then_some(""), message, hint);
-    }
-
-    fn resonance(&mut self) -> ResonanceQuestion {
-        let default = ResonanceQuestion::default();
-        let text = self.text;
-        ResonanceQuestion {
-            frequency: self.speeds(),
-            method: self.resonance_method(),
-            mode: self.count("mode", text.mode.as_deref(), 1, 10_000).unwrap_or(default.mode),
-            order: self.excitation_order(),
-            points: self
-                .count("points", text.points.as_deref(), 2, 1_000_000)
-                .unwrap_or(default.points),
-            verify: text.verify,
-        }
-    }
-
-    fn folds(&mut self) -> Option<FoldsQuestion> {
-        let text = self.text;
-        let frequency = self.speeds();
-        let method = self.resonance_method();
-        let mode = self.count("mode", text.mode.as_deref(), 1, 10_000).unwrap_or(1);
-        let order = self.excitation_order();
-        let points = self.count("points", text.points.as_deref(), 8, 1_000_000).unwrap_or(200);
-        let parameter = self.parameter(order)?;
-        Some(FoldsQuestion { frequency, parameter, method, mode, order, points })
+        self.refuse("order", text.order.as_deref(), message, hint);
+        self.refuse("equation", text.equation.as_deref(), message, hint);
+        self.refuse("printed-velocity", text.printed_velocity.then_some(""), message, hint);
     }
 }

@@ -9,7 +9,8 @@ pub struct QuestionText {
     pub initial: Vec<String>,
     /// `--start`.
     pub start: Option<String>,
-    /// `--frequency`: one speed for `simulate`, a range for the others.
+    /// `--frequency`: one speed for `simulate` and beside a `--parameter` of `resonance`, a range for
+    /// the others.
     pub frequency: Option<String>,
     /// `--step`.
     pub step: Option<String>,
@@ -37,6 +38,12 @@ pub struct QuestionText {
     pub parameter: Option<String>,
     /// `--equilibrium`.
     pub equilibrium: Option<String>,
+    /// `--harmonics`.
+    pub harmonics: Option<String>,
+    /// `--stability`.
+    pub stability: Option<String>,
+    /// `--backbone`.
+    pub backbone: bool,
 }
 
 /// What is wrong with one option.

@@ -1,7 +1,7 @@
 //! One option of a question at a time: its value, or what is wrong with it.
 
 use super::channel::{InitialValue, parse_initial};
-use super::kinds::{ResonanceMethod, Start};
+use super::kinds::Start;
 use super::text::{OptionError, QuestionText};
 use crate::diagnostic::did_you_mean;
 use crate::driveline::{Driveline, Topology};
@@ -51,17 +51,6 @@ impl Reader<'_> {
             self.errors.push(OptionError::new("frequency", written, message, ""));
         }
         range
-    }
-
-    pub(super) fn resonance_method(&mut self) -> ResonanceMethod {
-        let text = self.text.method.as_deref();
-        if let Some(planned @ ("harmonic-balance" | "first-harmonic")) = text {
-            let message = format!("{planned} is not available in this version");
-            let hint = "this version answers in closed form: --method averaged";
-            self.errors.push(OptionError::new("method", planned, message, hint));
-            return ResonanceMethod::Averaged;
-        }
-        self.choice("method", text, &ResonanceMethod::ALL).unwrap_or_default()
     }
 
     pub(super) fn excitation_order(&mut self) -> Option<f64> {
@@ -124,13 +113,27 @@ impl Reader<'_> {
         }
     }
 
+    /// Notes that an option, where it is written, says nothing to what was chosen: whoever wrote it
+    /// expects an effect.
+    pub(super) fn refuse(
+        &mut self,
+        option: &'static str,
+        written: Option<&str>,
+        message: &str,
+        hint: &str,
+    ) {
+        if let Some(written) = written {
+            self.errors.push(OptionError::new(option, written, message, hint));
+        }
+    }
+
     pub(super) fn tolerance(&mut self, default: f64) -> f64 {
         let text = self.text.tolerance.as_deref();
         let tolerance = self.quantity("tolerance", text, QuantityKind::Number, Sign::Positive);
         match tolerance {
             Some(tolerance) if !(1e-14..=1e-1).contains(&tolerance) => {
-                let hint = "from 1e-14 to 0.1; the default is 1e-10";
-                let message = "a tolerance outside what the integrator can hold";
+                let hint = format!("from 1e-14 to 0.1; the default is {default:e}");
+                let message = "a tolerance outside what can be held";
                 self.errors.push(OptionError::new("tolerance", text.unwrap_or(""), message, hint));
                 default
             }
@@ -219,5 +222,5 @@ impl Reader<'_> {
 #[expect(clippy::cast_precision_loss, reason = "files are too small for so many elements")]
 fn columns_of(line: &Driveline) -> f64 {
     let (topology, _) = Topology::with_contradictions(line);
-    (1 + 3 * line.shafts().len() + 2 * topology.nodes.len()) as f64
+    (1 + 3 * line.connection_names().count() + 2 * topology.nodes.len()) as f64
 }

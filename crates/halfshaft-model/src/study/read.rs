@@ -337,6 +337,9 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         verify: table.flag("verify"),
         parameter: option("parameter"),
         equilibrium: option("equilibrium"),
+        harmonics: option("harmonics"),
+        stability: option("stability"),
+        backbone: table.flag("backbone"),
     }
 }
 

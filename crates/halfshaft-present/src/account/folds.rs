@@ -3,7 +3,9 @@
 use halfshaft_results::{FoldsResult, SpecialKind, SpecialPoint};
 
 use super::{Account, Grid};
-use crate::words::{capital, column_label, list, number, plain, quantity, times};
+use crate::words::{
+    capital, column_label, counted, list, number, plain, quantity, special_words, times,
+};
 
 /// The whole account.
 pub(crate) fn account(result: &FoldsResult) -> Account {
@@ -18,6 +20,7 @@ pub(crate) fn account(result: &FoldsResult) -> Account {
 pub(crate) fn plane(result: &FoldsResult, explain: bool) -> Account {
     let mut account = Account::default();
     account.text(thresholds(result));
+    account.text(detached(result));
     if explain && !result.curves.is_empty() {
         account.note(
             "Between the two folds three responses exist, and a slow sweep jumps where it crosses \
@@ -26,7 +29,7 @@ pub(crate) fn plane(result: &FoldsResult, explain: bool) -> Account {
         );
     }
     account.figure(crate::figures::folds::id(result));
-    account.grid(cusps(result));
+    account.grid(points(result));
     account
 }
 
@@ -140,15 +143,52 @@ pub(crate) fn distance(result: &FoldsResult) -> Option<String> {
     })
 }
 
-fn cusps(result: &FoldsResult) -> Grid {
-    let points: Vec<&SpecialPoint> = cusp_points(result).collect();
+/// Cusps, births and mergers.
+fn points(result: &FoldsResult) -> Grid {
+    let points = &result.special_points;
     let of = |name: &str| points.iter().map(|point| point.value(name)).collect::<Vec<_>>();
     let to_rpm = |value: Option<f64>| value.map(|value| value * 30.0 / std::f64::consts::PI);
-    Grid::new("Cusps")
-        .numbers(&parameter(result), &result.parameter_unit, 7, of(&result.parameter))
+    let grid = if points.iter().all(|point| point.kind == SpecialKind::Cusp) {
+        Grid::new("Cusps")
+    } else {
+        let kinds = points.iter().map(|point| special_words(point.kind));
+        Grid::new("Special points of the plane").words("kind", kinds)
+    };
+    grid.numbers(&parameter(result), &result.parameter_unit, 7, of(&result.parameter))
         .numbers("excitation speed", "rad/s", 7, of("frequency"))
         .numbers("excitation speed", "rpm", 6, of("frequency").into_iter().map(to_rpm))
         .numbers("detuning σ", "rad/s", 6, of("sigma"))
         .numbers("amplitude ρ", "rad", 6, of("rho"))
         .without_empty_columns()
+}
+
+/// Where detached responses are born and where they join others, and how many responses there are
+/// at most.
+fn detached(result: &FoldsResult) -> Vec<String> {
+    let name = parameter(result);
+    let unit = plain(&result.parameter_unit);
+    let told = |point: &SpecialPoint| {
+        let what = match point.kind {
+            SpecialKind::IsolaBirth => "A detached response is born",
+            SpecialKind::IsolaMerger => "A detached response joins another one",
+            _ => return None,
+        };
+        let value = quantity(point.value(&result.parameter)?, 7, &unit);
+        let at = point.value("frequency").map_or_else(String::new, |speed| {
+            format!(", at {}", crate::words::frequency_words(speed))
+        });
+        Some(format!("{what} where the {name} is {value}{at}."))
+    };
+    let mut sentences: Vec<String> = result.special_points.iter().filter_map(told).collect();
+    if !sentences.is_empty() {
+        let slow = "A slow sweep at a fixed value never shows it, but a shock can throw the line onto \
+                    it.";
+        sentences.push(slow.to_owned());
+    }
+    let counts = result.responses.iter().flat_map(|responses| &responses.count).flatten();
+    if let Some(most) = counts.max().filter(|most| **most > 1) {
+        let many = counted(*most as usize, "response", "responses");
+        sentences.push(format!("Up to {many} exist side by side in this plane."));
+    }
+    sentences
 }

@@ -14,11 +14,13 @@ pub(crate) mod history;
 pub(crate) mod methods;
 pub(crate) mod modes;
 pub(crate) mod next;
+pub(crate) mod periodic;
 pub(crate) mod report;
 pub(crate) mod resonance;
 pub(crate) mod shock;
 pub(crate) mod statics;
 pub(crate) mod study;
+pub(crate) mod verification;
 
 mod chain;
 mod grid;

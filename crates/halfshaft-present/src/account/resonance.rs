@@ -1,14 +1,17 @@
 //! What is told of a resonance.
 
 use halfshaft_results::{
-    Branch, JumpSpeeds, ModeScaling, ResonanceResult, SpecialKind, SpecialPoint, VerifiedPoint,
+    Branch, JumpSpeeds, ModeScaling, ResonanceResult, SpecialKind, SpecialPoint,
 };
 
-use super::{Account, Grid, Tone, check::minus};
-use crate::words::{capital, counted, frequency_words, number, percent, plain, quantity};
+use super::{Account, Grid, check::minus, periodic, verification};
+use crate::words::{capital, column_words, frequency_words, number, plain, quantity};
 
 /// The whole account.
 pub(crate) fn account(result: &ResonanceResult) -> Account {
+    if result.scaling.is_empty() {
+        return periodic::account(result);
+    }
     let mut account = Account::default();
     for (index, scaling) in result.scaling.iter().enumerate() {
         account.text([peak(result, index), threshold(scaling)]);
@@ -28,15 +31,7 @@ pub(crate) fn account(result: &ResonanceResult) -> Account {
         );
     }
     account.grid(folds);
-    account.text([verdict(result)]);
-    account.grid(verification(result));
-    if !result.verification.is_empty() {
-        account.note(
-            "Integrated means a periodic motion of the full equations, found from the prediction. \
-             Its largest Floquet multiplier is the factor by which a small disturbance changes over \
-             one period: below 1 it dies out.",
-        );
-    }
+    account.append(verification::account(result));
     account
 }
 
@@ -132,16 +127,17 @@ fn times_exactly(factor: f64) -> String {
 
 /// The jumps of slow sweeps, one sentence each.
 pub(crate) fn jumps(result: &ResonanceResult) -> Vec<String> {
-    let shaft = result.scaling.first().map_or_else(String::new, |scaling| plain(&scaling.shaft));
-    result.jumps.iter().map(|jump| told(jump, &shaft)).collect()
+    result.jumps.iter().map(told).collect()
 }
 
-fn told(jump: &JumpSpeeds, shaft: &str) -> String {
+fn told(jump: &JumpSpeeds) -> String {
+    let shaft = column_words(&jump.channel).map_or("line", |channel| channel.owner);
+    let shaft = plain(shaft);
     let speed =
         format!("{} ({})", quantity(jump.rpm, 5, "rpm"), quantity(jump.frequency, 6, "rad/s"));
-    let before = number(jump.rho_before, 4);
+    let before = number(jump.before, 4);
     let sweep = plain(&jump.sweep);
-    match jump.rho_after {
+    match jump.after {
         Some(after) => format!(
             "Sweeping {sweep}, the twist of the {shaft} jumps at {speed} from ±{before} to ±{} rad.",
             number(after, 4)
@@ -200,61 +196,4 @@ fn folds(result: &ResonanceResult) -> Grid {
 
 fn rpm(frequency: Option<f64>) -> Option<f64> {
     frequency.map(|frequency| frequency * 30.0 / std::f64::consts::PI)
-}
-
-/// The check of the largest predicted response, and the check with the largest difference.
-pub(crate) fn best_and_worst(points: &[VerifiedPoint]) -> Option<(&VerifiedPoint, &VerifiedPoint)> {
-    let finite = || points.iter().filter(|point| point.relative_difference.is_finite());
-    let top = finite().max_by(|a, b| a.predicted.total_cmp(&b.predicted))?;
-    let worst = finite()
-        .max_by(|a, b| a.relative_difference.abs().total_cmp(&b.relative_difference.abs()))?;
-    Some((top, worst))
-}
-
-/// How well the closed form agrees with integration.
-pub(crate) fn verdict(result: &ResonanceResult) -> String {
-    let points = &result.verification;
-    let Some((top, worst)) = best_and_worst(points) else { return String::new() };
-    let disagree = points.iter().filter(|p| p.predicted_stable != p.integrated_stable).count();
-    let stability = if disagree == 0 {
-        "stability agrees at all of them".to_owned()
-    } else {
-        format!("stability disagrees at {}", counted(disagree, "point", "points"))
-    };
-    format!(
-        "Held against integration of the full equations at {}: at the largest of them ({}) the \
-         closed form differs by {}; the largest difference is {} at {}; {stability}.",
-        counted(points.len(), "response", "responses"),
-        quantity(top.frequency, 5, "rad/s"),
-        percent(top.relative_difference.abs(), 2),
-        percent(worst.relative_difference.abs(), 2),
-        quantity(worst.frequency, 5, "rad/s"),
-    )
-}
-
-fn verification(result: &ResonanceResult) -> Grid {
-    let rows = &result.verification;
-    let values = |of: fn(&VerifiedPoint) -> f64| rows.iter().map(move |point| Some(of(point)));
-    let word = |stable: bool| if stable { "stable" } else { "unstable" };
-    Grid::new("Closed form held against integration: first harmonic of the twist")
-        .numbers("excitation speed", "rad/s", 6, values(|p| p.frequency))
-        .numbers("excitation speed", "rpm", 5, rows.iter().map(|p| rpm(Some(p.frequency))))
-        .numbers("closed form", "rad", 6, values(|p| p.predicted))
-        .numbers("integrated", "rad", 6, values(|p| p.integrated))
-        .numbers("difference", "%", 3, values(|p| 100.0 * p.relative_difference))
-        .words(
-            "stability (both)",
-            rows.iter().map(|point| {
-                if point.predicted_stable == point.integrated_stable {
-                    word(point.predicted_stable).to_owned()
-                } else {
-                    let (one, other) = (point.predicted_stable, point.integrated_stable);
-                    format!("{} / {}", word(one), word(other))
-                }
-            }),
-        )
-        .numbers("largest multiplier", "", 4, values(|p| p.largest_multiplier))
-        .with_tones(rows.iter().map(|point| {
-            if point.predicted_stable == point.integrated_stable { Tone::Usual } else { Tone::Bad }
-        }))
 }

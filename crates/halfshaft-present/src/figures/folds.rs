@@ -1,13 +1,11 @@
 //! Fold curves in the plane of excitation speed and one parameter.
 
-use halfshaft_results::{FoldsResult, Table};
+use halfshaft_results::{FoldsResult, SpecialKind, SpecialPoint, Table};
 
 use super::axes::{column_axis, speed_axis};
-use super::slug;
-use crate::account::folds::cusp_points;
-use crate::figure::{
-    Colour, Curve, Figure, Label, Line, Marker, Panel, Points, Reference, Region, escape,
-};
+use super::regions::{Tints, tints};
+use super::{marks, slug};
+use crate::figure::{Colour, Curve, Figure, Label, Line, Panel, Points, Reference, Region, escape};
 use crate::words::{number, quantity, unit};
 
 /// The id of the figure of a plane.
@@ -21,14 +19,23 @@ pub(super) fn figure(result: &FoldsResult) -> Figure {
         result.curves.iter().map(|table| points(table, &result.parameter)).collect();
     let mut y = column_axis(&result.parameter, &result.parameter_unit);
     y.range = range(result, &curves);
-    let mut panel = Panel::new(speed_axis(), y);
-    for (x, y) in areas(&curves) {
-        panel = panel.with(Region::new(several(result), x, y, Colour::Sky));
-    }
+    let mut x = speed_axis();
+    x.range = speeds(result);
+    let mut panel = Panel::new(x, y);
+    panel = match &result.responses {
+        Some(responses) => {
+            let Tints { regions, labels } = tints(responses, &curves);
+            panel.with_all(regions).with_all(labels)
+        }
+        None => {
+            let region = |(x, y)| Region::new(several(result), x, y, Colour::Sky);
+            panel.with_all(areas(&curves).into_iter().map(region))
+        }
+    };
     for (x, y) in curves {
         panel = panel.with(Curve::new("fold", x, y, Colour::PRIMARY));
     }
-    panel = panel.with_all(cusps(result)).with_all(own_value(result));
+    panel = panel.with_all(special(result)).with_all(own_value(result));
     if result.curves.is_empty() {
         panel = with_remark(panel, result);
     }
@@ -39,11 +46,19 @@ pub(super) fn figure(result: &FoldsResult) -> Figure {
     Figure::new(id(result), title).with_caption(caption(result)).with(panel)
 }
 
+/// The speeds at which responses were counted: the plane that was searched.
+fn speeds(result: &FoldsResult) -> Option<(f64, f64)> {
+    let speeds = &result.responses.as_ref()?.frequency;
+    Some((*speeds.first()?, *speeds.last()?))
+}
+
 /// An empty plane about the resonance, saying that it is empty.
 fn with_remark(mut panel: Panel, result: &FoldsResult) -> Panel {
     let resonance = result.scaling.as_ref().map(|scaling| scaling.omega_1 / scaling.order);
     let middle = resonance.filter(|speed| speed.is_finite() && *speed > 0.0).unwrap_or(1.0);
-    panel.x = panel.x.with_range(0.8 * middle, 1.2 * middle);
+    let (from, to) = panel.x.range.unwrap_or((0.8 * middle, 1.2 * middle));
+    let middle = f64::midpoint(from, to);
+    panel.x = panel.x.with_range(from, to);
     let (low, high) = panel.y.range.unwrap_or((0.0, 1.0));
     let height = low + 0.5 * (high - low);
     panel.with(Label::new(middle, height, "no response folds in this range"))
@@ -59,10 +74,23 @@ fn several(result: &FoldsResult) -> &'static str {
 }
 
 fn caption(result: &FoldsResult) -> String {
-    let mut text =
-        "In the shaded wedge three responses exist; a slow sweep through it jumps at its \
-                    edges. Stars are cusps, where the jump begins."
-            .to_owned();
+    let mut text = match &result.responses {
+        Some(_) => {
+            "The tint and the number tell how many responses exist side by side; where it is one, \
+             nothing can jump."
+        }
+        None => {
+            "In the shaded wedge three responses exist; a slow sweep through it jumps at its edges."
+        }
+    }
+    .to_owned();
+    let has = |kind| result.special_points.iter().any(|point| point.kind == kind);
+    if has(SpecialKind::Cusp) || result.responses.is_none() {
+        text += " Stars are cusps, where the jump begins.";
+    }
+    if has(SpecialKind::IsolaBirth) || has(SpecialKind::IsolaMerger) {
+        text += " Triangles are where a detached response is born or joins another.";
+    }
     if result.parameter_value.is_some() {
         text += " The dashed line is the model's own value.";
     }
@@ -125,18 +153,15 @@ fn turns(values: &[f64]) -> bool {
     far(extremes.0) || far(extremes.1)
 }
 
-fn cusps(result: &FoldsResult) -> Option<Points> {
-    let places: Vec<(f64, f64)> = cusp_points(result)
-        .filter_map(|point| Some((point.value("frequency")?, point.value(&result.parameter)?)))
-        .collect();
-    if places.is_empty() {
-        return None;
-    }
+/// Cusps, births and mergers with the value of the parameter at which they lie.
+fn special(result: &FoldsResult) -> Vec<Points> {
     let symbol = escape(unit(&result.parameter_unit));
-    let labels = places.iter().map(|(_, y)| format!("cusp {}", quantity(*y, 6, &symbol))).collect();
-    let (x, y) = places.into_iter().unzip();
-    let points = Points::new("cusp", x, y, Colour::DANGER).with_marker(Marker::Star);
-    Some(Points { size: 8.0, ..points.with_labels(labels) })
+    let beside = |kind: SpecialKind, (_, y): (f64, f64)| {
+        let value = quantity(y, 6, &symbol);
+        if kind == SpecialKind::Cusp { format!("cusp {value}") } else { value }
+    };
+    let points: Vec<&SpecialPoint> = result.special_points.iter().collect();
+    marks::marked(&points, ("frequency", &result.parameter), beside)
 }
 
 fn own_value(result: &FoldsResult) -> Option<Reference> {

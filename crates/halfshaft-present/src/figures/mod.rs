@@ -16,11 +16,15 @@ pub(crate) mod folds;
 pub(crate) mod history;
 pub(crate) mod methods;
 pub(crate) mod modes;
+pub(crate) mod periodic;
 pub(crate) mod resonance;
 pub(crate) mod statics;
 pub(crate) mod study;
 
 mod axes;
+mod marks;
+mod multipliers;
+mod regions;
 
 /// The figures of an answer, in the order of reading.
 #[must_use]

@@ -3,6 +3,7 @@
 use halfshaft_results::{Branch, ModeScaling, ResonanceResult, SpecialPoint};
 
 use super::axes::{column_axis, curve, name, speed_axis};
+use super::periodic;
 use crate::account::resonance::fold_points;
 use crate::figure::{Axis, Colour, Curve, Figure, Item, Line, Panel, Points};
 use crate::words::{number, plain};
@@ -17,10 +18,15 @@ pub(crate) fn id(result: &ResonanceResult, index: usize) -> String {
     }
 }
 
-/// One figure for each exciting order.
+/// The ids of the figures of harmonic balance or of the first harmonic.
+pub(crate) fn ids(result: &ResonanceResult) -> Vec<String> {
+    periodic::figures(result).into_iter().map(|figure| figure.id).collect()
+}
+
+/// One figure for each exciting order of the closed form; those of other methods.
 pub(super) fn figures(result: &ResonanceResult) -> Vec<Figure> {
-    if result.scaling.is_empty() && !result.branches.is_empty() {
-        return vec![figure(result, 0, None)];
+    if result.scaling.is_empty() {
+        return periodic::figures(result);
     }
     let orders = result.scaling.iter().enumerate();
     orders.map(|(index, scaling)| figure(result, index, Some(scaling))).collect()

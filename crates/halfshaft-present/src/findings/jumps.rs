@@ -49,7 +49,7 @@ pub(super) fn jumps(report: &ReportResult) -> Option<Finding> {
 
 /// Where the jumps lie past the limit of the shaft's law.
 fn gives_way_first(report: &ReportResult, result: &ResonanceResult) -> Option<Finding> {
-    let first = result.jumps.iter().map(|jump| jump.rho_before).reduce(f64::min)?;
+    let first = result.jumps.iter().map(|jump| jump.before).reduce(f64::min)?;
     let shaft = &result.scaling.first()?.shaft;
     let room = super::vibration::room(report.statics.as_ref(), shaft)?;
     let text = format!(

@@ -3,7 +3,7 @@
 use halfshaft_results::ReportResult;
 
 use super::{Finding, Standing};
-use crate::account::{methods, resonance};
+use crate::account::{methods, verification};
 use crate::words::{number, percent, quantity};
 
 /// A closed form within this of integration, at the largest response, is good for design.
@@ -22,7 +22,7 @@ pub(super) fn trust(report: &ReportResult) -> Vec<Finding> {
 
 fn closed_form(report: &ReportResult) -> Option<Finding> {
     let points = &report.resonance.as_ref()?.verification;
-    let (top, worst) = resonance::best_and_worst(points)?;
+    let (top, worst) = verification::best_and_worst(points)?;
     let difference = top.relative_difference.abs();
     let digits = if difference > 0.0 { -difference.log10() } else { 16.0 };
     let apart = (worst.frequency / top.frequency - 1.0).abs();

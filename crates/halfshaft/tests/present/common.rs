@@ -46,14 +46,15 @@ pub fn the_report(answer: &Answer) -> &ReportResult {
 pub fn answers(line: &Driveline) -> Vec<Answer> {
     let usual = QuestionText::default;
     let short = || Some("2 s".to_owned());
+    let averaged = || QuestionText { method: Some("averaged".to_owned()), ..usual() };
     let asked = [
         (Verb::Check, usual()),
         (Verb::Static, usual()),
         (Verb::Modes, usual()),
         (Verb::Simulate, QuestionText { duration: short(), ..usual() }),
         (Verb::Shock, QuestionText { compare: true, ..usual() }),
-        (Verb::Resonance, QuestionText { verify: true, ..usual() }),
-        (Verb::Folds, QuestionText { parameter: Some("mode.f=1..2000".to_owned()), ..usual() }),
+        (Verb::Resonance, QuestionText { verify: true, ..averaged() }),
+        (Verb::Folds, QuestionText { parameter: Some("mode.f=1..2000".to_owned()), ..averaged() }),
     ];
     let answer = |(verb, text): (Verb, QuestionText)| {
         ask(line, &read(verb, &text, line).ok()?, &Silent).ok()

@@ -15,8 +15,8 @@ const BETA: f64 = 0.0951;
 /// The plane of excitation speed and amplitude of the scaled oscillator.
 fn plane() -> Figure {
     let line = line(embedded::scaled(), &[]);
-    let text =
-        QuestionText { parameter: Some("mode.f=1..20".to_owned()), ..QuestionText::default() };
+    let (parameter, method) = (Some("mode.f=1..20".to_owned()), Some("averaged".to_owned()));
+    let text = QuestionText { parameter, method, ..QuestionText::default() };
     let question = read(Verb::Folds, &text, &line).unwrap();
     let answer: Answer = ask(&line, &question, &Silent).unwrap();
     figure(&answer, "folds-mode.f")

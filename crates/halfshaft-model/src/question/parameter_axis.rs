@@ -1,4 +1,5 @@
-//! The parameter axis of `folds`: an address with a range of values that can have an effect.
+//! The parameter that `folds` and `resonance` go through: an address with a range of values that can
+//! have an effect.
 
 use super::kinds::ParameterRange;
 use super::text::OptionError;
@@ -9,9 +10,29 @@ use crate::parameter::{AddressError, Parameter};
 use crate::range::parse_range;
 use crate::units::{QuantityKind, Sign};
 
+/// Which orders of the torques act together.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Orders {
+    /// One alone; `None` for the strongest.
+    One(Option<f64>),
+    /// All of them.
+    All,
+}
+
+/// What a parameter is gone through for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sweep {
+    /// What it must have an effect on, in words.
+    pub(super) what: &'static str,
+    /// Whether the coefficients of the mode are there to be changed.
+    pub(super) coefficients: bool,
+    /// Which orders act.
+    pub(super) orders: Orders,
+}
+
 impl Reader<'_> {
-    /// The parameter axis of the fold curves of an order; errors are noted and give `None`.
-    pub(super) fn parameter(&mut self, order: Option<f64>) -> Option<ParameterRange> {
+    /// The parameter axis; errors are noted and give `None`.
+    pub(super) fn parameter(&mut self, sweep: &Sweep) -> Option<ParameterRange> {
         let example = "e.g. --parameter \"half-shaft.cubic=-700..0\"";
         let Some(text) = self.text.parameter.as_deref() else {
             let message = "which parameter, and from where to where?";
@@ -24,7 +45,7 @@ impl Reader<'_> {
             self.errors.push(OptionError::new("parameter", text, message, example));
             return None;
         };
-        match self.parameter_range(address.trim(), range, order) {
+        match self.parameter_range(address.trim(), range, sweep) {
             Ok(range) => Some(range),
             Err((message, hint)) => {
                 self.errors.push(OptionError::new("parameter", text, message, hint));
@@ -38,20 +59,21 @@ impl Reader<'_> {
         &self,
         address: &str,
         range: &str,
-        order: Option<f64>,
+        sweep: &Sweep,
     ) -> Result<ParameterRange, (String, String)> {
         let plain = |message: String| (message, String::new());
-        let coefficient = mode_coefficient(address, self.line)?;
+        let coefficient = mode_coefficient(address, self.line, sweep)?;
         let parameter = match coefficient {
             Some(_) => None,
             None => Some(self.line.parameter(address).map_err(|error| {
-                let hint = format!("{}, or {COEFFICIENTS}", error.hint(self.line));
+                let hint = error.hint(self.line);
                 let elsewhere = matches!(error, AddressError::NoElement { .. });
-                let hint = if elsewhere { hint } else { error.hint(self.line) };
+                let more = elsewhere && sweep.coefficients;
+                let hint = if more { format!("{hint}, or {COEFFICIENTS}") } else { hint };
                 (error.to_string(), hint)
             })?),
         };
-        if let Some(useless) = parameter.as_ref().and_then(|p| no_effect(p, self.line, order)) {
+        if let Some(useless) = parameter.as_ref().and_then(|p| no_effect(p, self.line, sweep)) {
             return Err(useless);
         }
         let kind = parameter.as_ref().map_or(QuantityKind::Number, |parameter| parameter.kind);
@@ -77,14 +99,26 @@ const COEFFICIENTS: &str =
 /// The signs that a coefficient of the mode may have, by its address; `None` where the address is
 /// none of a mode. Their units mix time and angle in ways that no flag needs, so their values are
 /// bare numbers.
-fn mode_coefficient(address: &str, line: &Driveline) -> Result<Option<Sign>, (String, String)> {
+fn mode_coefficient(
+    address: &str,
+    line: &Driveline,
+    sweep: &Sweep,
+) -> Result<Option<Sign>, (String, String)> {
     let Some(name) = address.strip_prefix("mode.") else { return Ok(None) };
+    let own = line.element_names().any(|element| element == "mode");
+    if !sweep.coefficients && !own {
+        let message = "only the closed form of one mode has such coefficients".to_owned();
+        let hint = "take a number of the line, such as the damping of a shaft; `halfshaft folds \
+                    --method averaged` has fold curves over coefficients of the mode";
+        return Err((message, hint.to_owned()));
+    }
     let sign = match name {
+        _ if !sweep.coefficients => return Ok(None),
         "alpha" => Sign::Any,
         "beta" | "f" => Sign::NonNegative,
         "omega_1" => Sign::Positive,
         // An element may have that name as well.
-        _ if line.element_names().any(|element| element == "mode") => return Ok(None),
+        _ if own => return Ok(None),
         _ => {
             let message = format!("the mode has no coefficient \"{name}\"");
             return Err((message, format!("give {COEFFICIENTS}")));
@@ -93,15 +127,12 @@ fn mode_coefficient(address: &str, line: &Driveline) -> Result<Option<Sign>, (St
     Ok(Some(sign))
 }
 
-/// Why a number of the line has no effect on the fold curves of an order (`None` for the
-/// strongest), with a hint: whoever asks for its curves would take "no fold" for an answer.
-fn no_effect(
-    parameter: &Parameter,
-    line: &Driveline,
-    order: Option<f64>,
-) -> Option<(String, String)> {
+/// Why a number of the line has no effect on what is asked for, with a hint: whoever asks for its
+/// fold curves would take "no fold" for an answer.
+fn no_effect(parameter: &Parameter, line: &Driveline, sweep: &Sweep) -> Option<(String, String)> {
     let useless = |why: String, hint: String| {
-        Some((format!("\"{}\" has no effect on fold curves: {why}", parameter.address), hint))
+        let Parameter { address, .. } = parameter;
+        Some((format!("\"{address}\" has no effect on {}: {why}", sweep.what), hint))
     };
     let key = parameter.key();
     if parameter.is_listed_ratio() {
@@ -111,7 +142,7 @@ fn no_effect(
     }
     let torque = parameter.torque(line)?;
     if key.starts_with("pulse.") {
-        let why = "a pulse acts once, and the curves are of lasting responses";
+        let why = "a pulse acts once, and they are of lasting motion";
         return useless(why.to_owned(), "`halfshaft shock` answers for pulses".to_owned());
     }
     if key == "frequency" {
@@ -121,29 +152,44 @@ fn no_effect(
     }
     let (harmonic, key) = parameter.harmonic(line)?;
     if key == "order" {
-        let why = "they are those of one order, which stays".to_owned();
-        return useless(why, "choose the order by --order".to_owned());
+        let (why, hint) = match sweep.orders {
+            Orders::One(_) => ("they are those of one order, which stays", "choose it by --order"),
+            Orders::All => (
+                "orders between two others have no common period with them",
+                "change it by --set and ask again",
+            ),
+        };
+        return useless(why.to_owned(), hint.to_owned());
     }
     if torque.frequency_rad_s.is_some() {
         let why = "this torque has a speed of its own and does not follow the excitation speed";
         return useless(why.to_owned(), format!("leave frequency out of \"{}\"", torque.name));
     }
-    if let Some(order) = order.filter(|order| *order != harmonic.order) {
+    if let Orders::One(Some(order)) = sweep.orders
+        && order != harmonic.order
+    {
         let why = format!("it belongs to order {}, the curves to order {order}", harmonic.order);
         return useless(why, format!("add --order {}", harmonic.order));
     }
-    if key == "phase" && stands_alone(harmonic, line) {
-        let why = format!("no other torque of order {} is there to add to", harmonic.order);
+    if key == "phase" && stands_alone(harmonic, line, sweep.orders) {
+        let why = match sweep.orders {
+            Orders::One(_) => {
+                format!("no other torque of order {} is there to add to", harmonic.order)
+            }
+            Orders::All => "no other oscillating torque is there to add to".to_owned(),
+        };
         return useless(why, "a phase alone only shifts the time".to_owned());
     }
     None
 }
 
-/// Whether no harmonic but this one drives the line at its order.
-fn stands_alone(harmonic: &Harmonic, line: &Driveline) -> bool {
+/// Whether no harmonic but this one drives the line together with it.
+fn stands_alone(harmonic: &Harmonic, line: &Driveline, orders: Orders) -> bool {
+    let together = |other: &Harmonic| match orders {
+        Orders::One(_) => other.order == harmonic.order,
+        Orders::All => true,
+    };
     let following = line.torques().iter().filter(|torque| torque.frequency_rad_s.is_none());
     let mut all = following.flat_map(|torque| &torque.harmonics);
-    !all.any(|other| {
-        !std::ptr::eq(other, harmonic) && other.order == harmonic.order && other.amplitude_nm != 0.0
-    })
+    !all.any(|other| !std::ptr::eq(other, harmonic) && together(other) && other.amplitude_nm != 0.0)
 }

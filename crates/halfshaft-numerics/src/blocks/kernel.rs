@@ -1,0 +1,128 @@
+//! Dense kernels on row-major slices: factorisation with partial pivoting, solves, products.
+
+/// Factorises the `n` by `n` matrix in place; `false` where a pivot vanishes or is not finite.
+/// `sign` is multiplied by the sign of the determinant.
+#[inline]
+pub(super) fn factorise(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
+    for k in 0..n {
+        let mut best = k;
+        let mut largest = a[k * n + k].abs();
+        for row in k + 1..n {
+            let size = a[row * n + k].abs();
+            if size > largest {
+                largest = size;
+                best = row;
+            }
+        }
+        if !(largest > 0.0 && largest.is_finite()) {
+            return false;
+        }
+        pivots[k] = best;
+        if best != k {
+            *sign = -*sign;
+            let (upper, lower) = a.split_at_mut(best * n);
+            upper[k * n..(k + 1) * n].swap_with_slice(&mut lower[..n]);
+        }
+        let (upper, lower) = a.split_at_mut((k + 1) * n);
+        let pivot_row = &upper[k * n..];
+        let inverse = 1.0 / pivot_row[k];
+        if pivot_row[k] < 0.0 {
+            *sign = -*sign;
+        }
+        for row in lower.chunks_exact_mut(n) {
+            let factor = row[k] * inverse;
+            row[k] = factor;
+            if factor != 0.0 {
+                for (entry, upper) in row[k + 1..].iter_mut().zip(&pivot_row[k + 1..n]) {
+                    *entry -= factor * upper;
+                }
+            }
+        }
+    }
+    true
+}
+
+/// Solves `A X = R` in place for `columns` right-hand sides (row-major, `n` by `columns`).
+#[inline]
+pub(super) fn solve(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64], columns: usize) {
+    for k in 0..n {
+        let best = pivots[k];
+        if best != k {
+            let (upper, lower) = r.split_at_mut(best * columns);
+            upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
+        }
+    }
+    for row in 1..n {
+        let (done, rest) = r.split_at_mut(row * columns);
+        for k in 0..row {
+            let factor = lu[row * n + k];
+            if factor != 0.0 {
+                axpy(-factor, &done[k * columns..(k + 1) * columns], &mut rest[..columns]);
+            }
+        }
+    }
+    for row in (0..n).rev() {
+        let (upper, done) = r.split_at_mut((row + 1) * columns);
+        let target = &mut upper[row * columns..];
+        for k in row + 1..n {
+            let from = (k - row - 1) * columns;
+            axpy(-lu[row * n + k], &done[from..from + columns], target);
+        }
+        let inverse = 1.0 / lu[row * n + row];
+        target.iter_mut().for_each(|value| *value *= inverse);
+    }
+}
+
+/// Solves `Aᵀ x = r` in place.
+#[inline]
+pub(super) fn solve_transposed(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64]) {
+    for k in 0..n {
+        r[k] /= lu[k * n + k];
+        let value = r[k];
+        for j in k + 1..n {
+            r[j] -= lu[k * n + j] * value;
+        }
+    }
+    for k in (0..n).rev() {
+        let value = r[k];
+        for j in 0..k {
+            r[j] -= lu[k * n + j] * value;
+        }
+    }
+    for k in (0..n).rev() {
+        r.swap(k, pivots[k]);
+    }
+}
+
+#[inline]
+pub(super) fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += factor * x;
+    }
+}
+
+/// `out -= A B` with `A` `rows` by `inner` and `B` `inner` by `columns`.
+#[inline]
+pub(super) fn subtract_product(
+    a: &[f64],
+    b: &[f64],
+    inner: usize,
+    columns: usize,
+    out: &mut [f64],
+) {
+    for (row, target) in a.chunks_exact(inner).zip(out.chunks_exact_mut(columns)) {
+        for (factor, source) in row.iter().zip(b.chunks_exact(columns)) {
+            if *factor != 0.0 {
+                axpy(-factor, source, target);
+            }
+        }
+    }
+}
+
+/// `out -= Aᵀ x` with `A` `x.len()` by `out.len()`.
+#[inline]
+pub(super) fn subtract_transposed(a: &[f64], x: &[f64], out: &mut [f64]) {
+    for (row, factor) in a.chunks_exact(out.len()).zip(x) {
+        axpy(-factor, row, out);
+    }
+}

@@ -1,0 +1,108 @@
+//! Elimination order of a graph and the places of its blocks.
+
+/// Which blocks a system on a graph has, in order of elimination.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pattern {
+    /// Node at each position of the order.
+    order: Vec<usize>,
+    /// Position of each node.
+    position: Vec<usize>,
+    /// For each position the later positions it is joined to, ascending, fill included.
+    later: Vec<Vec<usize>>,
+    /// For each position the place of its first off-diagonal block.
+    first: Vec<usize>,
+    /// Number of off-diagonal pairs.
+    pairs: usize,
+}
+
+impl Pattern {
+    /// The pattern of a graph of `nodes` nodes (at least one) and the given edges.
+    pub fn new(nodes: usize, edges: impl IntoIterator<Item = (usize, usize)>) -> Self {
+        let mut joined = vec![std::collections::BTreeSet::new(); nodes];
+        for (a, b) in edges {
+            if a != b {
+                joined[a].insert(b);
+                joined[b].insert(a);
+            }
+        }
+        let mut order = Vec::with_capacity(nodes);
+        let mut later_nodes = Vec::with_capacity(nodes);
+        let mut left: Vec<bool> = vec![true; nodes];
+        for _ in 0..nodes {
+            let least =
+                (0..nodes).filter(|node| left[*node]).min_by_key(|node| joined[*node].len());
+            let Some(node) = least else { break };
+            left[node] = false;
+            let around: Vec<usize> = joined[node].iter().copied().collect();
+            for &a in &around {
+                joined[a].remove(&node);
+                joined[a].extend(around.iter().copied().filter(|b| *b != a));
+            }
+            order.push(node);
+            later_nodes.push(around);
+        }
+        let mut position = vec![0; nodes];
+        for (at, node) in order.iter().enumerate() {
+            position[*node] = at;
+        }
+        let later: Vec<Vec<usize>> = later_nodes
+            .into_iter()
+            .map(|around| {
+                let mut places: Vec<usize> =
+                    around.into_iter().map(|node| position[node]).collect();
+                places.sort_unstable();
+                places
+            })
+            .collect();
+        let mut first = Vec::with_capacity(nodes);
+        let mut pairs = 0;
+        for list in &later {
+            first.push(pairs);
+            pairs += list.len();
+        }
+        Self { order, position, later, first, pairs }
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Position of a node in the order of elimination.
+    #[inline]
+    pub fn position(&self, node: usize) -> usize {
+        self.position[node]
+    }
+
+    /// The node that is eliminated last, with the border.
+    pub fn last(&self) -> usize {
+        self.order.last().copied().unwrap_or(0)
+    }
+
+    /// The node at a position of the order.
+    #[inline]
+    pub(super) fn node(&self, position: usize) -> usize {
+        self.order[position]
+    }
+
+    pub(super) fn later(&self, position: usize) -> &[usize] {
+        &self.later[position]
+    }
+
+    pub(super) fn first(&self, position: usize) -> usize {
+        self.first[position]
+    }
+
+    pub(super) fn pairs(&self) -> usize {
+        self.pairs
+    }
+
+    /// Place of the pair of blocks between two positions, the earlier one first.
+    #[inline]
+    pub(super) fn pair(&self, earlier: usize, later: usize) -> usize {
+        let list = &self.later[earlier];
+        let at = list.partition_point(|other| *other < later);
+        debug_assert_eq!(list.get(at), Some(&later), "no such block");
+        self.first[earlier] + at
+    }
+}
