@@ -83,6 +83,7 @@ class Case:
     averaged: bool = False
     fold_range: tuple | None = None
     fold_tolerance: float = 1e-8
+    points: int | None = None
 
 
 # The theory's driveline: natural frequency, cubic and damping of its one oscillator.
@@ -119,7 +120,8 @@ DUFFING = Case(
      Reference("fold", OMEGA_1 - 0.3714820758753, 6.1221485266)),
     auto=(AutoSettings("accurate", 7, 7, 0.05), AutoSettings("accurate, long steps", 7, 7, 0.3),
           AutoSettings("fast", 7, 5, 0.05), AutoSettings("fast, long steps", 7, 5, 0.3)),
-    pyharm=(PyharmSettings((1, 3, 5), 32, 0.1),), jaxcont=True, averaged=True, fold_tolerance=1e-10)
+    pyharm=(PyharmSettings((1, 3, 5), 32, 0.1),), jaxcont=True, averaged=True,
+    fold_tolerance=1e-10, points=140)
 
 HARDENING_CASE = Case(
     "hardening", "Hardening Duffing D1", "duffing-hardening.toml", HARDENING,
@@ -127,7 +129,7 @@ HARDENING_CASE = Case(
     (Reference("fold", 1.2696019555, 2.82501671), Reference("fold", 1.1157002518, 1.08187032)),
     auto=(AutoSettings("accurate", 10, 6, 0.05), AutoSettings("accurate, long steps", 10, 6, 0.15),
           AutoSettings("fast", 10, 4, 0.05), AutoSettings("fast, long steps", 10, 4, 0.15)),
-    pyharm=(PyharmSettings((1, 3, 5, 7), 64, 0.1),), averaged=True, fold_tolerance=1e-10)
+    pyharm=(PyharmSettings((1, 3, 5, 7, 9), 64, 0.1),), averaged=True, fold_tolerance=1e-10, points=85)
 
 FOLDS = Case(
     "folds", "Fold curve of the theory's Duffing through its cusp", "duffing-theory.toml", THEORY,
@@ -135,7 +137,7 @@ FOLDS = Case(
     (Reference("cusp", OMEGA_1 - 0.082314212998, None, 6.761266972852),),
     auto=(AutoSettings("accurate", 7, 7, 0.1), AutoSettings("accurate, long steps", 7, 7, 0.25),
           AutoSettings("fast", 7, 5, 0.1), AutoSettings("fast, long steps", 7, 5, 0.25)),
-    averaged=True, fold_range=(4.0, 20.0), fold_tolerance=1e-7)
+    averaged=True, fold_range=(4.0, 20.0), fold_tolerance=1e-7, points=280)
 
 ABSORBER_CASE = Case(
     "absorber", "Two inertias with an absorber", "absorber.toml", ABSORBER,
@@ -144,7 +146,7 @@ ABSORBER_CASE = Case(
      Reference("fold", 1.2146262252), Reference("fold", 1.2062194574)),
     auto=(AutoSettings("accurate", 10, 5, 0.02), AutoSettings("accurate, long steps", 10, 5, 0.3),
           AutoSettings("fast", 10, 4, 0.02), AutoSettings("fast, long steps", 10, 4, 0.3)),
-    pyharm=(PyharmSettings((1, 3, 5, 7), 32, 0.1),))
+    pyharm=(PyharmSettings((1, 3, 5, 7), 32, 0.1),), points=165)
 
 TEN = Case(
     "ten", "Chain of ten, nine nonlinear shafts", "chain-of-ten.toml", chain(10),
@@ -152,14 +154,15 @@ TEN = Case(
     (Reference("fold", 4.6414820021, 1.7122196749), Reference("fold", 4.590778663, 3.29302118)),
     auto=(AutoSettings("accurate", 15, 6, 0.1), AutoSettings("fast", 20, 4, 0.1),
           AutoSettings("fast, long steps", 20, 4, 0.5)),
-    pyharm=(PyharmSettings((1, 3, 5, 7), 64, 0.2), PyharmSettings((1, 3, 5, 7, 9, 11), 96, 0.2)))
+    pyharm=(PyharmSettings((1, 3, 5, 7), 64, 0.2), PyharmSettings((1, 3, 5, 7, 9, 11), 96, 0.2)),
+    points=85)
 
 FIFTY = Case(
     "fifty", "Chain of fifty, 49 nonlinear shafts", "chain-of-fifty.toml", chain(50),
     0.88, 1.1, 0.98, 0.98, False, 0.05, "inertia 50.angle", {49: 1.0},
     (Reference("sample", 0.96, 3.0701139596), Reference("sample", 1.0, 3.1888430948)),
     auto=(AutoSettings("fast", 10, 4, 3.0, 100),),
-    pyharm=(PyharmSettings((1, 3, 5), 32, 1.0),))
+    pyharm=(PyharmSettings((1, 3, 5), 32, 1.0),), points=80)
 
 CURVES = (DUFFING, HARDENING_CASE, FOLDS, ABSORBER_CASE, TEN, FIFTY)
 SCALING = (10, 30, 100, 300, 1000)

@@ -16,20 +16,24 @@ class Halfshaft:
 
     def __init__(self, program, repeater, method=None):
         self.program, self.repeater = str(program), str(repeater)
-        for path in (self.program, self.repeater):
-            if not Path(path).exists():
-                raise Failure(f"{path} is missing: build it as README.md says")
+        if not Path(self.program).exists():
+            raise Failure(f"{self.program} is missing: build it as README.md says")
+        # Without the example the start-up is taken from the shortest question of the program.
+        self.repeats = Path(self.repeater).exists()
         options = measured([self.program, "resonance", "--help"]).output
         known = "harmonic-balance" in options
         self.method = method or ("harmonic-balance" if known else "averaged")
         self.tolerance = "--tolerance" in options
 
-    def settings(self):
-        """Name and flags of each way in which the program is run."""
+    def settings(self, case):
+        """Name and flags of each way in which the program is run on a case."""
         flags = ["--method", self.method]
-        ways = [(self.method, flags)]
-        if self.method == "harmonic-balance" and self.tolerance:
-            ways.append((f"{self.method}, tolerance 1e-9", [*flags, "--tolerance", "1e-9"]))
+        if self.method != "harmonic-balance" or not self.tolerance:
+            return [(self.method, flags)]
+        strict = [*flags, "--tolerance", "1e-9"]
+        ways = [("default", flags), ("tolerance 1e-9", strict)]
+        if case.points:
+            ways.append((f"tolerance 1e-9, points {case.points}", [*strict, "--points", str(case.points)]))
         return ways
 
     def can(self, case):
@@ -43,12 +47,14 @@ class Halfshaft:
             raise Failure(f"halfshaft {' '.join(words)} failed:\n{run.errors[-1500:]}")
         return run.seconds, json.loads(run.output)
 
-    def inside(self, words):
+    def inside(self, words, whole):
         """Processor seconds of the question by itself: the slope over the number of repeats."""
-        model = words[1]
+        verb, model, *flags = words
+        if not self.repeats:
+            return max(whole - self.answer(["check", model])[0], 0.0)
         seconds = []
         for count in (SHORT, LONG):
-            run = measured([self.repeater, str(count), model, words[0], *words[2:]])
+            run = measured([self.repeater, str(count), model, verb, *flags])
             if run.status != 0:
                 raise Failure(f"ask_repeatedly failed:\n{run.errors[-1500:]}")
             seconds.append(run.seconds)
@@ -126,7 +132,7 @@ class Side:
         """One more measurement."""
         seconds, self.last = self.half.answer(self.words)
         self.whole.append(1e3 * seconds)
-        self.inside.append(1e3 * self.half.inside(self.words))
+        self.inside.append(1e3 * self.half.inside(self.words, seconds))
 
     def row(self):
         """Medians and what the last answer says."""

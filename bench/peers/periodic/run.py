@@ -86,7 +86,7 @@ def compare(half, peers, case, repeats):
     import halfshaft
     from table import judge, markdown
 
-    own = [halfshaft.Side(half, case, *way) for way in half.settings()] if half.can(case) else []
+    own = [halfshaft.Side(half, case, *way) for way in half.settings(case)] if half.can(case) else []
     sides = [*own, *peers.sides(case)]
     for turn in range(repeats):
         for side in sides:
@@ -94,8 +94,7 @@ def compare(half, peers, case, repeats):
             if turn == 0 or sum(side.whole) < 20_000:
                 side.once()
     rows = [judge(side.row(), case.references) for side in sides]
-    best = rows[len(own) - 1] if own else None
-    return markdown(case.title, rows, best)
+    return markdown(case.title, rows, rows[:len(own)], case.fold_tolerance)
 
 
 def scaling(half, repeats, folder):
@@ -109,7 +108,7 @@ def scaling(half, repeats, folder):
     lines = []
     for count in cases.SCALING:
         case = dataclasses.replace(cases.TEN, line=cases.one_nonlinear(count), low=low, high=high)
-        name, flags = half.settings()[0]
+        name, flags = half.settings(case)[0]
         side = halfshaft.Side(half, case, name, flags, models.one_nonlinear(count, folder))
         for _ in range(repeats if count < 300 else min(repeats, 3)):
             side.once()
@@ -141,7 +140,8 @@ def main():
     peers = Peers(names, work)
     one_core()
     wanted = chosen.cases.split(",") if chosen.cases else [c.key for c in cases.CURVES] + ["scaling", "map"]
-    parts = [f"Processor time on one core. Ratios: how often the last halfshaft row ({half.method}) fits.\n"]
+    parts = [f"Processor time on one core; halfshaft's method: {half.method}. The columns x tell how often\n"
+             "halfshaft's time fits, of its row that is accurate enough and has the nearest number of samples.\n"]
     for case in cases.CURVES:
         if case.key in wanted:
             parts.append(compare(half, peers, case, chosen.repeats))

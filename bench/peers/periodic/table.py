@@ -1,5 +1,6 @@
 """Rows of the comparison, their errors against the references, and how they are printed."""
 
+import math
 from dataclasses import dataclass, field
 
 
@@ -59,25 +60,38 @@ HEAD = ("program", "settings", "samples", "whole ms", "inside ms", "ms/sample",
         "frequency error", "amplitude error", "x whole", "x curve", "x sample", "remark")
 
 
-def cells(row, own):
-    """One line; the ratios tell how often halfshaft's row `own` fits into this one."""
+def counterpart(row, own, tolerance):
+    """halfshaft's row that a peer's row is measured against.
+
+    Of those that meet the tolerance of the case (of all where none does) the one with the most
+    similar number of samples, so that neither side gains by drawing its curve with fewer.
+    """
+    good = [one for one in own if (one.frequency_error or 0.0) <= tolerance and "NOT" not in one.remark]
+    rows = good or own
+    return min(rows, key=lambda one: abs(math.log(max(one.samples, 1) / max(row.samples, 1))),
+               default=None)
+
+
+def cells(row, mine):
+    """One line; the ratios tell how often halfshaft's row `mine` fits into this one."""
 
     def ratio(theirs, ours):
-        return f"{theirs / ours:.1f}" if theirs and ours and row is not own else "-"
+        return f"{theirs / ours:.1f}" if theirs and ours else "-"
 
     def number(value, form):
         return form.format(value) if value is not None else "-"
 
+    ratios = ("-", "-", "-") if mine is None else (
+        ratio(row.whole, mine.whole), ratio(row.inside, mine.inside), ratio(row.per_sample, mine.per_sample))
     return (row.program, row.settings, str(row.samples or "-"), number(row.whole, "{:.1f}"),
             number(row.inside, "{:.2f}"), number(row.per_sample, "{:.4f}"),
             number(row.frequency_error, "{:.1e}"), number(row.amplitude_error, "{:.1e}"),
-            ratio(row.whole, own.whole) if own else "-", ratio(row.inside, own.inside) if own else "-",
-            ratio(row.per_sample, own.per_sample) if own else "-", row.remark)
+            *ratios, row.remark)
 
 
-def markdown(title, rows, own, head=HEAD):
+def markdown(title, rows, own, tolerance, head=HEAD):
     """A table of all rows, as Markdown that also reads well in a terminal."""
-    lines = [cells(row, own) for row in rows]
+    lines = [cells(row, None if row in own else counterpart(row, own, tolerance)) for row in rows]
     return f"## {title}\n\n{plain(head, lines)}"
 
 

@@ -44,6 +44,7 @@ fn text(options: &[String]) -> Result<QuestionText, Box<dyn Error>> {
             "--method" => &mut text.method,
             "--tolerance" => &mut text.tolerance,
             "--points" => &mut text.points,
+            "--harmonics" => &mut text.harmonics,
             other => return Err(format!("{other} is not known here").into()),
         };
         *place = Some(value.clone());
