@@ -25,11 +25,9 @@ pub(super) fn capacity_of(law: &Pieces) -> ShaftCapacity {
     both_ways(law, first_limit)
 }
 
-fn both_ways(
-    law: &Pieces,
-    first: impl Fn(&Pieces) -> Option<(Limit, bool)>,
-) -> ShaftCapacity {
-    let backwards = |(limit, _): (Limit, bool)| Limit { torque: -limit.torque, twist: -limit.twist };
+fn both_ways(law: &Pieces, first: impl Fn(&Pieces) -> Option<(Limit, bool)>) -> ShaftCapacity {
+    let backwards =
+        |(limit, _): (Limit, bool)| Limit { torque: -limit.torque, twist: -limit.twist };
     ShaftCapacity {
         positive: first(law).map(|(limit, _)| limit),
         negative: first(&law.stretched(-1.0)).map(backwards),
