@@ -1,6 +1,7 @@
 //! The head of every result.
 
 use halfshaft_model::Driveline;
+use halfshaft_model::elements::Shaft;
 use halfshaft_model::question::Question;
 use halfshaft_results::{Header, ModelIdentity, Termination};
 
@@ -13,8 +14,21 @@ pub(crate) fn header(line: &Driveline, question: &Question) -> Header {
         termination: Termination::completed(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         warnings: Vec::new(),
-        assumptions: Vec::new(),
+        assumptions: friction(line),
     }
+}
+
+/// How dry friction is smoothed.
+fn friction(line: &Driveline) -> Vec<String> {
+    let rough = line.shafts().iter().filter(|shaft| shaft.friction_nm > 0.0);
+    let sentence = |shaft: &Shaft| {
+        format!(
+            "the dry friction of {} is smoothed: {} N·m · tanh(rate of twist / {} rad/s); at rest it \
+             carries nothing, and a shaft that sticks creeps",
+            shaft.name, shaft.friction_nm, shaft.friction_speed_rad_s
+        )
+    };
+    rough.map(sentence).collect()
 }
 
 /// The settings of a question as JSON, without the name of the question around them.

@@ -20,23 +20,31 @@ pub struct Connection {
     pub to: End,
     /// Torque over twist.
     pub law: TorqueLaw,
-    /// Viscous damping in parallel, N·m·s/rad; acts at every twist, inside a gap too.
+    /// Viscous damping in parallel, N·m·s/rad.
     pub damping: f64,
+    /// Whether the damping acts at every twist; else only where [`TorqueLaw::in_contact`].
+    pub damps_in_gap: bool,
     /// Dry friction in parallel.
     pub friction: Option<Friction>,
 }
 
 impl Connection {
-    /// Torque that depends on the rate of twist `v` (rad/s): viscous and dry friction, N·m.
+    /// Viscous damping that acts at twist `x` (rad), N·m·s/rad.
     #[inline]
-    pub fn resistance(&self, v: f64) -> f64 {
-        self.damping * v + self.friction.map_or(0.0, |friction| friction.torque(v))
+    pub fn damping_at(&self, x: f64) -> f64 {
+        if self.damps_in_gap || self.law.in_contact(x) { self.damping } else { 0.0 }
+    }
+
+    /// Torque that depends on the rate of twist `v` (rad/s): viscous damping and dry friction, N·m.
+    #[inline]
+    pub fn resistance(&self, x: f64, v: f64) -> f64 {
+        self.damping_at(x) * v + self.friction.map_or(0.0, |friction| friction.torque(v))
     }
 
     /// Derivative of [`Connection::resistance`] by the rate, N·m·s/rad.
     #[inline]
-    pub fn resistance_slope(&self, v: f64) -> f64 {
-        self.damping + self.friction.map_or(0.0, |friction| friction.slope(v))
+    pub fn resistance_slope(&self, x: f64, v: f64) -> f64 {
+        self.damping_at(x) + self.friction.map_or(0.0, |friction| friction.slope(v))
     }
 }
 
@@ -185,6 +193,7 @@ fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
         to: None,
         law: law_of_shaft(shaft),
         damping: shaft.damping_nm_s_per_rad,
+        damps_in_gap: shaft.damps_in_gap,
         friction: (shaft.friction_nm > 0.0).then_some(Friction {
             torque_nm: shaft.friction_nm,
             speed_rad_s: shaft.friction_speed_rad_s,
@@ -196,6 +205,7 @@ fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
         to: None,
         law: law_of_mesh(gear),
         damping: gear.damping_nm_s_per_rad.unwrap_or(0.0),
+        damps_in_gap: gear.damps_in_gap,
         friction: None,
     });
     let placed = |(connection, [from, to]): (Connection, &[End; 2])| Connection {

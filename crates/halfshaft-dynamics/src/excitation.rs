@@ -133,12 +133,13 @@ impl Excitation {
         self.weighted(groups, order, |source| source.growth_slope(frequency))
     }
 
-    /// Whether any torque of an order grows with the excitation speed.
-    pub fn grows(&self) -> bool {
-        let grows = |s: &Source| {
-            s.speed_power != 0.0 && s.own_frequency.is_none() && !s.harmonics.is_empty()
-        };
-        self.sources.iter().any(grows)
+    /// The first torque of an order whose amplitudes grow with the excitation speed.
+    pub fn growing(&self) -> Option<&Source> {
+        self.sources.iter().find(|source| {
+            source.speed_power != 0.0
+                && source.own_frequency.is_none()
+                && !source.harmonics.is_empty()
+        })
     }
 
     /// Torques of one order on the groups, each source times a factor of its own.

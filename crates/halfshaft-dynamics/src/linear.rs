@@ -11,10 +11,21 @@ impl EquationsOfMotion {
         self.assemble(|index| self.connections[index].law.stiffness(twists[index]))
     }
 
-    /// Viscous damping `Σ w c wᵀ` plus the dampers to ground, groups by groups, N·m·s/rad. Dry
-    /// friction has no damping constant of its own and is left out.
+    /// Viscous damping `Σ w c wᵀ` of all connections plus the dampers to ground, groups by groups,
+    /// N·m·s/rad, as if each was in contact. Dry friction has no damping constant of its own and is
+    /// left out.
     pub fn damping_matrix(&self) -> Matrix {
-        let mut matrix = self.assemble(|index| self.connections[index].damping);
+        self.damping(|index| self.connections[index].damping)
+    }
+
+    /// The same about the twists of all connections: dampers that act in contact only are left out
+    /// where there is none.
+    pub fn tangent_damping(&self, twists: &[f64]) -> Matrix {
+        self.damping(|index| self.connections[index].damping_at(twists[index]))
+    }
+
+    fn damping(&self, value: impl Fn(usize) -> f64) -> Matrix {
+        let mut matrix = self.assemble(value);
         for (group, damping) in self.ground_damping.iter().enumerate() {
             matrix[(group, group)] += damping;
         }

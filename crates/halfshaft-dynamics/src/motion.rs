@@ -195,7 +195,8 @@ impl<'l> Motion<'l> {
         self.net.copy_from_slice(&self.external);
         let Kinematics { speeds, twists, rates, .. } = &self.kinematics;
         for (index, connection) in self.equations.connections.iter().enumerate() {
-            let torque = connection.law.torque(twists[index]) + connection.resistance(rates[index]);
+            let torque = connection.law.torque(twists[index])
+                + connection.resistance(twists[index], rates[index]);
             self.equations.add_direction(index, -torque, &mut self.net);
         }
         for (group, damping) in self.equations.ground_damping.iter().enumerate() {
@@ -283,10 +284,10 @@ impl System for Motion<'_> {
         rate[..n].copy_from_slice(&state[n..2 * n]);
         self.accelerate(&mut rate[n..2 * n]);
         if self.with_energy {
-            let Kinematics { speeds, rates, .. } = &self.kinematics;
+            let Kinematics { speeds, twists, rates, .. } = &self.kinematics;
             rate[2 * n] = self.external.iter().zip(speeds).map(|(q, v)| q * v).sum();
-            let shafts = self.equations.connections.iter().zip(rates);
-            let inside: f64 = shafts.map(|(c, v)| c.resistance(*v) * v).sum();
+            let shafts = self.equations.connections.iter().zip(twists).zip(rates);
+            let inside: f64 = shafts.map(|((c, x), v)| c.resistance(*x, *v) * v).sum();
             let ground = self.equations.ground_damping.iter().zip(speeds);
             let outside: f64 = ground.map(|(d, v)| d * v * v).sum();
             rate[2 * n + 1] = inside + outside;
@@ -304,7 +305,8 @@ impl Linearised for Motion<'_> {
         self.net.fill(0.0);
         for (index, connection) in self.equations.connections.iter().enumerate() {
             let torque = connection.law.stiffness(twists[index]) * self.kinematics.twists[index]
-                + connection.resistance_slope(rates[index]) * self.kinematics.rates[index];
+                + connection.resistance_slope(twists[index], rates[index])
+                    * self.kinematics.rates[index];
             self.equations.add_direction(index, -torque, &mut self.net);
         }
         for (group, damping) in self.equations.ground_damping.iter().enumerate() {

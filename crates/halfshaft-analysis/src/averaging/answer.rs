@@ -155,7 +155,7 @@ fn excited_modes(
 pub(super) const MOST_DETUNED: f64 = 0.95;
 
 /// Range of Ω that shows the resonance: several widths of it and all of its bend.
-fn default_window(mode: &ModeEquation) -> (f64, f64) {
+pub(crate) fn default_window(mode: &ModeEquation) -> (f64, f64) {
     let flow = mode.slow_flow();
     let mut reach = 8.0 * mode.beta / 2.0;
     let mut bend = (0.0_f64, 0.0_f64);

@@ -5,12 +5,12 @@
 //! of a shaft has the describing function of its law beside its damper.
 
 use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_dynamics::laws::PolynomialLaw;
 use halfshaft_numerics::polynomial::Polynomial;
 use halfshaft_results::{Column, Named};
 
 use super::mode_equation::ModeEquation;
 use super::responses::Response;
-use crate::equilibrium::polynomial_of;
 
 /// Amplitude, mean and first harmonic of one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +49,9 @@ impl ChannelMaps {
             let mut add = |word: &str, unit, kind| {
                 maps.push(ChannelMap { name: format!("{}.{word}", connection.name), unit, kind });
             };
-            let law = Polynomial::new(polynomial_of(&connection.law).coefficients());
+            // A mode is only made of polynomial laws.
+            let law = connection.law.polynomial();
+            let law = law.map_or(Polynomial::new([]), PolynomialLaw::polynomial);
             let about = law.shifted(rest);
             let damping = connection.damping;
             add("twist", "rad", ChannelKind::Motion { factor, rest });

@@ -15,7 +15,7 @@ mod mode_equation;
 mod responses;
 mod scaling;
 
-pub(crate) use answer::solve;
+pub(crate) use answer::{default_window, solve};
 pub(crate) use columns::phase_lag;
 pub(crate) use fold_answer::solve as solve_folds;
 pub(crate) use mode_equation::ModeEquation;

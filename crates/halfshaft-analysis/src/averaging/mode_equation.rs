@@ -12,13 +12,18 @@
 //! For the two-mass line `m = J_m J_L/(J_m + J_L)` and `f` is (29) with `F = T_m/J_m + T_L/J_L`.
 
 use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_dynamics::laws::PolynomialLaw;
 use halfshaft_numerics::polynomial::Polynomial;
 
 use super::responses::SlowFlow;
-use crate::equilibrium::{RestState, polynomial_of};
+use crate::equilibrium::RestState;
 use crate::error::AnalysisError;
 use crate::modal::ElasticMode;
 use crate::modal::elastic::ElasticSpace;
+use crate::polynomials_only::polynomial_laws;
+
+/// Name of the method in messages.
+const METHOD: &str = "averaged";
 
 /// Highest power of the expansion about the equilibrium.
 const POWERS: usize = 8;
@@ -61,6 +66,11 @@ impl ModeEquation {
         mode: usize,
         order: f64,
     ) -> Result<Self, AnalysisError> {
+        let laws = polynomial_laws(equations, METHOD)?;
+        if let Some(source) = equations.excitation.growing() {
+            let reason = format!("the amplitude of {} grows with the speed", source.name);
+            return Err(AnalysisError::MethodDoesNotFit { method: METHOD, reason });
+        }
         let modes = ElasticSpace::new(equations).modes(equations, &rest.twists)?;
         let shape = modes
             .get(mode - 1)
@@ -73,7 +83,6 @@ impl ModeEquation {
         let scale = shape.twists[reference];
         let twist_per_x: Vec<f64> = shape.twists.iter().map(|twist| twist / scale).collect();
         let inertia = 1.0 / (scale * scale);
-        // Amplitudes that grow with the speed are taken at resonance.
         let frequency = shape.eigenvalue.sqrt() / order;
         let (f, phase) = drive(equations, shape, scale, order, frequency);
         Ok(Self {
@@ -82,7 +91,7 @@ impl ModeEquation {
             reference,
             inertia,
             omega: shape.eigenvalue.sqrt(),
-            restoring: restoring(equations, rest, &twist_per_x, inertia),
+            restoring: restoring(&laws, rest, &twist_per_x, inertia),
             beta: damping(equations, shape),
             f,
             phase,
@@ -174,15 +183,14 @@ fn damping(equations: &EquationsOfMotion, mode: &ElasticMode) -> f64 {
 }
 
 fn restoring(
-    equations: &EquationsOfMotion,
+    laws: &[&PolynomialLaw],
     rest: &RestState,
     twist_per_x: &[f64],
     inertia: f64,
 ) -> [f64; POWERS] {
     let mut sum = [0.0; POWERS];
-    for ((connection, x0), per_x) in equations.connections.iter().zip(&rest.twists).zip(twist_per_x)
-    {
-        let about = Polynomial::new(polynomial_of(&connection.law).coefficients()).shifted(*x0);
+    for ((law, x0), per_x) in laws.iter().zip(&rest.twists).zip(twist_per_x) {
+        let about = Polynomial::new(law.coefficients()).shifted(*x0);
         let mut lever = *per_x;
         for (power, (sum, k)) in sum.iter_mut().zip(about.coefficients()).enumerate() {
             if power > 0 {

@@ -9,7 +9,9 @@ use halfshaft_results::{
     StaticResult, Table, Termination,
 };
 
-use super::{Overload, RestStates, Shared, after_ramps, capacity, carries, find, find_stable};
+use super::{
+    Overload, RestStates, Shared, after_ramps, capacity, carries, find, find_stable, free_play,
+};
 use crate::error::AnalysisError;
 use crate::header::header;
 use crate::modal::{by_connection, rest_result};
@@ -48,8 +50,9 @@ pub(crate) fn solve(
             states.states.len()
         ));
     }
-    if states.primary().is_none() {
-        header.warnings.push(overload_message(line, &equations, &states));
+    match states.primary() {
+        Some(state) => header.warnings.extend(free_play(&equations, state)),
+        None => header.warnings.push(overload_message(line, &equations, &states)),
     }
     header.warnings.extend(ramp_warning(&equations)?);
     let load = load_words(&equations);
@@ -292,7 +295,9 @@ fn torque_curve(
     let law = &equations.connections[index].law;
     let limits = [capacity.positive, capacity.negative];
     let turning = limits.iter().flatten().map(|limit| limit.twist.abs());
-    let reach = equilibria.map(f64::abs).chain(turning).fold(0.0, f64::max);
+    let pieces = law.pieces();
+    let joints = pieces.list().iter().map(|piece| piece.from.abs()).filter(|x| x.is_finite());
+    let reach = equilibria.map(f64::abs).chain(turning).chain(joints).fold(0.0, f64::max);
     let reach = 1.25 * if reach > 0.0 { reach } else { 1.0 };
     let twists: Vec<f64> = (0..CURVE_POINTS)
         .map(|i| reach * (2.0 * f64::from(i) / f64::from(CURVE_POINTS - 1) - 1.0))

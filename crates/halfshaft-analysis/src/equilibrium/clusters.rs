@@ -8,15 +8,17 @@
 //! ```
 //!
 //! where `d_e` is what the forces beyond the shaft ask of it. Tree shafts that no common loop
-//! joins are independent of each other: a cluster of one is a polynomial, with all its roots.
+//! joins are independent of each other: a cluster of one is one law, piece by piece a polynomial, with
+//! all its roots.
 
 use halfshaft_dynamics::EquationsOfMotion;
-use halfshaft_numerics::dense::{Matrix, symmetric_eigen};
+use halfshaft_dynamics::laws::Pieces;
+use halfshaft_numerics::dense::{Matrix, dot, symmetric_eigen};
 use halfshaft_numerics::newton;
-use halfshaft_numerics::polynomial::{Multiplicity, Polynomial, Root};
 
 use super::capacity::{capacity, capacity_of};
-use super::{Overload, Shared, polynomial_of};
+use super::holding::{VANISHING, holds, is_flat};
+use super::{Overload, Shared};
 use crate::error::{AnalysisError, Doing};
 
 /// Tree shafts that depend on each other.
@@ -37,9 +39,6 @@ pub(super) struct Balanced {
     /// Whether its tangent stiffness is positive there.
     pub(super) stable: bool,
 }
-
-/// A tangent stiffness below this part of its terms has vanished: the limit of a law.
-const VANISHING: f64 = 1e-10;
 
 /// Splits the line into clusters under the given forces on its groups.
 pub(super) fn split(equations: &EquationsOfMotion, forces: &[f64]) -> Vec<Cluster> {
@@ -164,10 +163,8 @@ impl Cluster {
     ) -> Result<(Vec<Balanced>, bool), AnalysisError> {
         if self.members.len() == 1 {
             let law = self.single_law(equations);
-            let rest = law.add(&Polynomial::new([-self.asked[0]]));
-            let balanced =
-                |root: Root| Balanced { twists: vec![root.value], stable: holds(&rest, root) };
-            return Ok((rest.real_roots().into_iter().map(balanced).collect(), true));
+            let balanced = |x: f64| Balanced { twists: vec![x], stable: holds(&law, x) };
+            return Ok((law.twists_at(self.asked[0]).into_iter().map(balanced).collect(), true));
         }
         // A linear cluster has one equilibrium, which one start finds.
         let linear = self.laws().all(|index| equations.connections[index].law.is_linear());
@@ -175,24 +172,12 @@ impl Cluster {
         Ok((self.search(equations, starts)?, linear))
     }
 
-    /// Law of a cluster of one as one polynomial of its twist: loops act in parallel.
-    fn single_law(&self, equations: &EquationsOfMotion) -> Polynomial {
-        let own = polynomial_of(&equations.connections[self.connections[0]].law).polynomial();
-        self.loops.iter().fold(own, |sum, (shaft, a)| {
-            let law = polynomial_of(&equations.connections[*shaft].law);
-            let mut power = a[0];
-            let stretched: Vec<f64> = law
-                .coefficients()
-                .iter()
-                .map(|k| {
-                    // a p(a x): the coefficient of x^i gains a^(i+1).
-                    let coefficient = k * power;
-                    power *= a[0];
-                    coefficient
-                })
-                .collect();
-            sum.add(&Polynomial::new(stretched))
-        })
+    /// Law of a cluster of one over its twist: loops act in parallel, each `a p(a x)`.
+    fn single_law(&self, equations: &EquationsOfMotion) -> Pieces {
+        let law = |index: usize| equations.connections[index].law.pieces();
+        let loops = self.loops.iter().filter(|(_, a)| a[0] != 0.0);
+        loops
+            .fold(law(self.connections[0]), |sum, (shaft, a)| sum.add(&law(*shaft).stretched(a[0])))
     }
 
     /// Connections of the cluster.
@@ -238,13 +223,21 @@ impl Cluster {
         Ok(found)
     }
 
-    /// Whether the tangent stiffness of the cluster is positive definite.
+    /// Whether the tangent stiffness of the cluster is positive definite; where a law is flat (inside
+    /// a gap), whether it is not negative.
     fn is_stable(&self, equations: &EquationsOfMotion, x: &[f64]) -> Result<bool, AnalysisError> {
         let mut tangent = Matrix::zeros(x.len(), x.len());
         self.jacobian(equations, x, &mut tangent);
         let values =
             symmetric_eigen(&tangent).doing("judging the stability of an equilibrium")?.values;
         let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let twists = self.connections.iter().copied().zip(x.iter().copied());
+        let loops = self.loops.iter().map(|(shaft, a)| (*shaft, dot(a, x)));
+        let flat =
+            |(index, x): (usize, f64)| is_flat(&equations.connections[index].law.pieces(), x);
+        if twists.chain(loops).any(flat) {
+            return Ok(values.iter().all(|value| *value >= -VANISHING * largest));
+        }
         Ok(values.iter().all(|value| *value > VANISHING * largest))
     }
 
@@ -253,11 +246,15 @@ impl Cluster {
         let load: f64 = self.asked.iter().map(|d| d.abs()).sum();
         let scale = |index: usize| {
             let law = &equations.connections[index].law;
-            let stiffness = law.stiffness(0.0).abs();
+            let pieces = law.pieces();
+            let loaded = [load, -load].into_iter().flat_map(|torque| pieces.twists_at(torque));
+            let loaded = loaded.map(f64::abs).fold(0.0, f64::max);
+            let joints = pieces.list().iter().map(|piece| piece.from.abs());
+            let joints = joints.filter(|x| x.is_finite()).fold(0.0, f64::max);
             let limit = capacity(law);
             let limits = [limit.positive, limit.negative];
             let turning = limits.iter().flatten().map(|l| l.twist.abs()).fold(0.0, f64::max);
-            (if stiffness > 0.0 { load / stiffness } else { 0.0 }).max(3.0 * turning)
+            loaded.max(1.5 * joints).max(3.0 * turning)
         };
         let reach = self.laws().map(scale).fold(0.0, f64::max);
         if reach > 0.0 { 2.0 * reach } else { 1.0 }
@@ -269,7 +266,7 @@ impl Cluster {
             residual[i] = law(*connection).torque(x[i]) - self.asked[i];
         }
         for (shaft, a) in &self.loops {
-            let torque = law(*shaft).torque(a.iter().zip(x).map(|(a, x)| a * x).sum());
+            let torque = law(*shaft).torque(dot(a, x));
             for (residual, a) in residual.iter_mut().zip(a) {
                 *residual += a * torque;
             }
@@ -285,7 +282,7 @@ impl Cluster {
             }
         }
         for (shaft, a) in &self.loops {
-            let stiffness = law(*shaft).stiffness(a.iter().zip(x).map(|(a, x)| a * x).sum());
+            let stiffness = law(*shaft).stiffness(dot(a, x));
             for row in 0..x.len() {
                 for column in 0..x.len() {
                     jacobian[(row, column)] += stiffness * a[row] * a[column];
@@ -315,20 +312,6 @@ impl Cluster {
         let limit = if asked >= 0.0 { limits.positive } else { limits.negative };
         Overload { connections, asked: Some(asked), limit }
     }
-}
-
-/// Whether a root of torque less load is an equilibrium that holds: the torque rises through it.
-fn holds(rest: &Polynomial, root: Root) -> bool {
-    let slope = rest.derivative();
-    let terms = slope.coefficients().iter().rev();
-    let size = terms.fold(0.0, |sum, k| sum * root.value.abs() + k.abs());
-    let rise = slope.evaluate(root.value);
-    if rise.abs() > VANISHING * size {
-        return rise > 0.0;
-    }
-    // Without a tangent stiffness the next terms decide: a cubic well holds, the top of a law not.
-    let beside = root.value + 1e-3 * if root.value == 0.0 { 1.0 } else { root.value.abs() };
-    root.multiplicity == Multiplicity::Simple && rest.evaluate(beside) > 0.0
 }
 
 /// Starts of the search for each unknown.

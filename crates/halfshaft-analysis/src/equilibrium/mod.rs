@@ -1,16 +1,17 @@
 //! All states of rest (or uniform running) under the mean torques, and what shafts can carry.
 //!
 //! On a tree of shafts, statics alone decides the torque of each shaft, and the twist follows
-//! from its law: all roots of one polynomial each, so the list is proven complete. Shafts in
+//! from its law: all roots of one polynomial a piece, so the list is proven complete. Shafts in
 //! loops share their torque; those are solved together ([`clusters`]).
 
 mod answer;
 mod capacity;
 mod clusters;
+mod free_play;
+mod holding;
 mod running;
 
-use halfshaft_dynamics::laws::PolynomialLaw;
-use halfshaft_dynamics::{EquationsOfMotion, TorqueLaw};
+use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::elements::Pulse;
 use halfshaft_results::{Limit, ShaftCapacity};
 
@@ -18,8 +19,9 @@ use crate::error::AnalysisError;
 use crate::modal::elastic::ElasticSpace;
 
 pub(crate) use answer::{overload_message, solve};
-pub(crate) use capacity::{capacity, carries};
+pub(crate) use capacity::{capacity, carries, snap_limits};
 pub(crate) use clusters::all_twists;
+pub(crate) use free_play::free_play;
 pub(crate) use running::RunningState;
 
 /// One state of rest or uniform running.
@@ -211,9 +213,4 @@ pub(crate) fn lowest_eigenvalue(
 ) -> Result<f64, AnalysisError> {
     let eigenvalues = ElasticSpace::new(equations).eigenvalues(equations, &state.twists)?;
     Ok(eigenvalues.first().copied().unwrap_or(0.0))
-}
-
-/// The law of a connection as a polynomial; one without torque where it is of another kind.
-pub(crate) fn polynomial_of(law: &TorqueLaw) -> PolynomialLaw {
-    law.polynomial().cloned().unwrap_or_else(|| PolynomialLaw::new([0.0; PolynomialLaw::COUNT]))
 }

@@ -128,11 +128,11 @@ impl Condensed {
         }
     }
 
-    /// Amplitudes of all groups from those of the kept ones, in place.
-    pub(super) fn recover(&self, skeleton: &Skeleton, amplitudes: &mut [Complex]) {
+    /// Amplitudes of all groups from those of the kept ones, in place, under loads times `drive`.
+    pub(super) fn recover(&self, skeleton: &Skeleton, drive: f64, amplitudes: &mut [Complex]) {
         for step in skeleton.steps.iter().rev() {
             let pivot = self.diagonal[step.group].value;
-            let mut right = self.load[step.group].value;
+            let mut right = self.load[step.group].value.scaled(drive);
             for &(other, edge) in &step.around {
                 right = right - self.edge[edge].value * amplitudes[other];
             }

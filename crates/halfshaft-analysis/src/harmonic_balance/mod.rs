@@ -1,32 +1,44 @@
-//! Harmonic balance: periodic responses with as many harmonics as the tolerance needs.
+//! Harmonic balance: periodic responses with as many harmonics as the tolerance needs, followed by
+//! arclength, with Floquet stability and located special points.
+//!
+//! | file | task |
+//! |---|---|
+//! | `skeleton`, `condensed`, `line` | the linear rest of the line taken out, harmonic by harmonic |
+//! | `system` | residual and Jacobian (alternating frequency-time) |
+//! | `problem` | Newton's method on a curve |
+//! | `tracer` | pseudo-arclength continuation |
+//! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
+//! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
+//! | `seeds`, `branches` | all branches, detached ones included |
+//! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
+//! | `backbone` | phase resonance, and free oscillation without damping |
+//! | `parameter_answer` | a number of the line in place of the speed |
+//! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
 
-use halfshaft_model::Driveline;
-use halfshaft_model::question::{FoldsQuestion, ResonanceQuestion};
-use halfshaft_numerics::observer::Observer;
-use halfshaft_results::{FoldsResult, ResonanceResult};
+mod answer;
+mod backbone;
+mod branches;
+mod channels;
+mod condensed;
+mod fold_answer;
+mod fold_system;
+mod fold_trace;
+mod jumps;
+mod line;
+mod lines;
+mod monodromy;
+mod parameter_answer;
+mod problem;
+mod range;
+mod seeds;
+mod series;
+mod skeleton;
+mod special;
+mod stability;
+mod switching;
+mod system;
+mod tracer;
+mod verify;
 
-use crate::error::AnalysisError;
-
-/// Answers `resonance`.
-pub(crate) fn solve(
-    _line: &Driveline,
-    _question: &ResonanceQuestion,
-    _observer: &dyn Observer,
-) -> Result<ResonanceResult, AnalysisError> {
-    Err(AnalysisError::MethodDoesNotFit {
-        method: "harmonic-balance",
-        reason: "in the making".to_owned(),
-    })
-}
-
-/// Answers `folds`.
-pub(crate) fn solve_folds(
-    _line: &Driveline,
-    _question: &FoldsQuestion,
-    _observer: &dyn Observer,
-) -> Result<FoldsResult, AnalysisError> {
-    Err(AnalysisError::MethodDoesNotFit {
-        method: "harmonic-balance",
-        reason: "in the making".to_owned(),
-    })
-}
+pub(crate) use answer::solve;
+pub(crate) use fold_answer::solve as solve_folds;

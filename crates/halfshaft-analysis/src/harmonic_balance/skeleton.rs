@@ -68,9 +68,8 @@ impl Skeleton {
             node_of[*group] = Some(node);
         }
         let joined = graph.edges.iter().enumerate();
-        let kept_edges: Vec<(usize, usize, usize)> = joined
-            .filter_map(|(edge, (a, b))| Some((edge, node_of[*a]?, node_of[*b]?)))
-            .collect();
+        let kept_edges: Vec<(usize, usize, usize)> =
+            joined.filter_map(|(edge, (a, b))| Some((edge, node_of[*a]?, node_of[*b]?))).collect();
         let pattern = Pattern::new(kept.len(), kept_edges.iter().map(|(_, a, b)| (*a, *b)));
         let nonlinear = (0..nonlinear.len()).filter(|index| nonlinear[*index]).collect();
         let edges = graph.edges;

@@ -25,7 +25,7 @@ pub(crate) fn solve(
     };
     let state = choose_equilibrium(line, &equations, &states, question.equilibrium)?;
     let undamped = ElasticSpace::new(&equations).modes(&equations, &state.twists)?;
-    let pairs = damped(&equations, &undamped)?;
+    let pairs = damped(&equations, &undamped, &state.twists)?;
     let mut modes = Vec::with_capacity(equations.groups());
     if let (Some(rigid), Some(pair)) = (&equations.rigid, pairs.rigid) {
         modes.push(rigid_mode(&equations, &rigid.speeds, pair));
@@ -38,10 +38,29 @@ pub(crate) fn solve(
         "small vibrations about the equilibrium: each shaft acts by its tangent stiffness there"
             .to_owned(),
     );
+    header.assumptions.extend(friction_left_out(&equations));
+    header.warnings.extend(equilibrium::free_play(&equations, state));
     if !state.stable {
         header.warnings.push("this equilibrium is not stable: small motions grow".to_owned());
     }
     Ok(ModesResult { header, equilibrium: rest_result(&equations, state, true)?, modes })
+}
+
+/// What modes make of dry friction, which has no tangent that would say anything.
+fn friction_left_out(equations: &EquationsOfMotion) -> Option<String> {
+    let names: Vec<&str> = equations
+        .connections
+        .iter()
+        .filter(|connection| connection.friction.is_some())
+        .map(|connection| connection.name.as_str())
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "the dry friction of {} is left out, as if it slid freely; motions so small that it \
+             sticks have other modes",
+            names.join(" and ")
+        )
+    })
 }
 
 /// The equilibrium of that number (from 1), or the stable one nearest to zero twist.
@@ -154,6 +173,8 @@ fn elastic_mode(
     let mut label = words(equations, state, mode);
     if mode.eigenvalue < 0.0 {
         label = format!("unstable, moves away without vibrating: {label}");
+    } else if mode.eigenvalue == 0.0 {
+        label = format!("free play, no vibration: {label}");
     }
     Mode {
         frequency,

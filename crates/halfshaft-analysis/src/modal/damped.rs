@@ -24,8 +24,9 @@ const UNCOUPLED: f64 = 1e-13;
 pub(super) fn damped(
     equations: &EquationsOfMotion,
     modes: &[ElasticMode],
+    twists: &[f64],
 ) -> Result<DampedPairs, AnalysisError> {
-    let damping = equations.damping_matrix();
+    let damping = equations.tangent_damping(twists);
     let mut shapes: Vec<&[f64]> = modes.iter().map(|mode| mode.shape.as_slice()).collect();
     let rigid_shape: Option<Vec<f64>> = equations.rigid.as_ref().map(|rigid| {
         let length = rigid.inertia.sqrt();

@@ -49,7 +49,7 @@ impl ElasticSpace {
         twists: &[f64],
     ) -> Result<Vec<f64>, AnalysisError> {
         let matrix = self.reduced(&equations.tangent_stiffness(twists));
-        Ok(symmetric_eigen(&matrix).doing("computing natural frequencies")?.values)
+        Ok(zeros_told(symmetric_eigen(&matrix).doing("computing natural frequencies")?.values))
     }
 
     /// Undamped modes about given twists, by ascending eigenvalue.
@@ -67,7 +67,7 @@ impl ElasticSpace {
                 .collect();
             ElasticMode { eigenvalue: *eigenvalue, shape, twists }
         };
-        Ok(eigen.values.iter().enumerate().map(mode).collect())
+        Ok(zeros_told(eigen.values).iter().enumerate().map(mode).collect())
     }
 
     /// `M^(-1/2) matrix M^(-1/2)` without the rigid-body motion.
@@ -101,6 +101,15 @@ impl ElasticSpace {
         }
         scaled.iter().zip(&self.root_inertia).map(|(value, m)| value / m).collect()
     }
+}
+
+/// Eigenvalues with those at zero that are only not zero by rounding: free play has no stiffness.
+fn zeros_told(mut values: Vec<f64>) -> Vec<f64> {
+    let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    #[expect(clippy::cast_precision_loss, reason = "a size")]
+    let rounding = 4.0 * f64::EPSILON * values.len() as f64 * largest;
+    values.iter_mut().filter(|value| value.abs() <= rounding).for_each(|value| *value = 0.0);
+    values
 }
 
 /// Vector `h` with `(1 - h hᵀ) unit` along the first axis.

@@ -19,8 +19,9 @@ use halfshaft_model::{Network, TreeShaft};
 use halfshaft_numerics::polynomial::Polynomial;
 
 use super::multiple_scales::Oscillator;
-use crate::equilibrium::{RestState, polynomial_of};
+use crate::equilibrium::RestState;
 use crate::error::AnalysisError;
+use crate::polynomials_only::polynomial_laws;
 
 /// A shock reduced to one equation.
 #[derive(Clone, Debug)]
@@ -65,7 +66,8 @@ pub(crate) fn reduce(
     let connection = 0;
     let shaft = &equations.connections[connection];
     let (static_twist, static_torque) = (rest.twists[connection], rest.torques[connection]);
-    let restoring = restoring(&polynomial_of(&shaft.law), static_twist);
+    let restoring =
+        restoring(polynomial_laws(equations, name(equation))?[connection], static_twist);
     // Doubling all torques is halving the inertia and what acts on it from outside.
     let (inertia, gain) = match equation {
         ShockEquation::Clamped => (ends.load, 1.0),
@@ -205,6 +207,7 @@ fn surrogate(
             to: None,
             law: TorqueLaw::Polynomial(PolynomialLaw::new(restoring)),
             damping: shaft.damping,
+            damps_in_gap: true,
             friction: None,
         }],
         nodes: vec![NodePlace {

@@ -123,8 +123,8 @@ fn of_connection(
         ChannelQuantity::Twist => (x, v),
         ChannelQuantity::TwistRate => (v, acceleration),
         _ => (
-            connection.law.torque(x) + connection.damping * v,
-            connection.law.stiffness(x) * v + connection.damping * acceleration,
+            connection.law.torque(x) + connection.resistance(x, v),
+            connection.law.stiffness(x) * v + connection.resistance_slope(x, v) * acceleration,
         ),
     }
 }

@@ -123,7 +123,7 @@ const LOST: f64 = 4.0;
 /// Tree twists whose laws have a limit on both sides, and how far is too far.
 fn reaches(equations: &EquationsOfMotion) -> Vec<(usize, f64)> {
     let reach = |shaft: usize| {
-        let limit = equilibrium::capacity(&equations.connections[shaft].law);
+        let limit = equilibrium::snap_limits(&equations.connections[shaft].law);
         Some(LOST * limit.positive?.twist.abs().max(limit.negative?.twist.abs()))
     };
     let tree = equations.network.tree.iter().enumerate();
@@ -163,7 +163,8 @@ fn integrator_settings(
     let n = equations.groups();
     let m = equations.network.tree.len();
     let loading = equations.excitation.scale();
-    let stiffest = equations.connections.iter().map(|c| c.law.stiffness(0.0)).fold(0.0, f64::max);
+    let stiffnesses = equations.connections.iter().map(|c| c.law.pieces().stiffness_scale());
+    let stiffest = stiffnesses.fold(0.0, f64::max);
     let lightest = equations.inertia.iter().copied().fold(f64::INFINITY, f64::min);
     let fastest = (2.0 * stiffest / lightest).sqrt();
     let by_load = if stiffest > 0.0 { loading / stiffest } else { 0.0 };

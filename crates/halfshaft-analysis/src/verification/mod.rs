@@ -8,4 +8,5 @@
 mod elastic_motion;
 mod orbits;
 
-pub(crate) use orbits::{choose, periodic};
+pub(crate) use elastic_motion::ElasticMotion;
+pub(crate) use orbits::{choose, common_order, periodic};

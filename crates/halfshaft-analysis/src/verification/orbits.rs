@@ -49,7 +49,7 @@ pub(crate) fn choose(mode: &ModeEquation, (from, to): (f64, f64)) -> Vec<Respons
 }
 
 /// Steps of the integration over one period at most: beyond that a motion runs away.
-const MOST_STEPS: usize = 10_000;
+pub(super) const MOST_STEPS: usize = 10_000;
 
 /// Samples of an orbit at least, and for each period of the harmonic that is looked at.
 const SAMPLES: usize = 256;
@@ -98,7 +98,7 @@ pub(crate) fn periodic(
 }
 
 /// Largest order that divides all others, so that its period is common to all.
-fn common_order(orders: &[f64]) -> Option<f64> {
+pub(crate) fn common_order(orders: &[f64]) -> Option<f64> {
     let first = *orders.first()?;
     let divides = |base: f64| {
         orders.iter().all(|order| {

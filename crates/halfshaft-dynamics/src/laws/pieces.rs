@@ -53,29 +53,43 @@ impl Pieces {
         piece.torque.evaluate_with_slope(x - piece.origin).1
     }
 
+    /// The largest tangent stiffness at zero twist and where pieces join, by magnitude: a scale of
+    /// the law, N·m/rad.
+    pub fn stiffness_scale(&self) -> f64 {
+        let slope = |piece: &Piece, x: f64| piece.torque.evaluate_with_slope(x - piece.origin).1;
+        let ends = self.pieces.iter().flat_map(|piece| {
+            let ends = [piece.from, piece.to].into_iter().filter(|x| x.is_finite());
+            ends.map(move |x| slope(piece, x).abs())
+        });
+        ends.fold(self.stiffness(0.0).abs(), f64::max)
+    }
+
     fn at(&self, x: f64) -> &Piece {
         let index = self.pieces.partition_point(|piece| piece.to < x);
         &self.pieces[index.min(self.pieces.len() - 1)]
     }
 
-    /// `sign · T(sign · x)` with a sign of 1 or -1: the law of a connection seen from its other
-    /// end.
+    /// `a · T(a · x)`: the law of a connection that twists `a` times as far, with `a` not zero; -1 is
+    /// the law seen from the other end.
     #[must_use]
-    pub fn turned(&self, sign: f64) -> Self {
-        if sign > 0.0 {
-            return self.clone();
-        }
-        let turned = |piece: &Piece| {
-            let mut coefficients = piece.torque.coefficients().to_vec();
-            coefficients.iter_mut().step_by(2).for_each(|c| *c = -*c);
-            Piece {
-                from: -piece.to,
-                to: -piece.from,
-                origin: -piece.origin,
-                torque: Polynomial::new(coefficients),
-            }
+    pub fn stretched(&self, a: f64) -> Self {
+        let piece = |piece: &Piece| {
+            let mut power = a;
+            let coefficients = piece.torque.coefficients().iter().map(|c| {
+                let coefficient = c * power;
+                power *= a;
+                coefficient
+            });
+            let torque = Polynomial::new(coefficients.collect::<Vec<f64>>());
+            let (from, to) = (piece.from / a, piece.to / a);
+            let (from, to) = if a > 0.0 { (from, to) } else { (to, from) };
+            Piece { from, to, origin: piece.origin / a, torque }
         };
-        Self { pieces: self.pieces.iter().rev().map(turned).collect() }
+        let mut pieces: Vec<Piece> = self.pieces.iter().map(piece).collect();
+        if a < 0.0 {
+            pieces.reverse();
+        }
+        Self { pieces }
     }
 
     /// The sum of two laws: connections in parallel.

@@ -278,13 +278,11 @@ fn check_can_turn(
     found: &mut Diagnostics,
 ) {
     for locked in network.locked_loops(line, topology.groups.len()) {
-        let shaft = line.shafts.iter().position(|shaft| shaft.name == locked.shaft);
-        let gear = line.gears.iter().position(|gear| gear.name == locked.shaft);
-        let (list, index) = match (shaft, gear) {
-            (Some(shaft), _) => ("shaft", shaft),
-            (None, gear) => ("gear", gear.unwrap_or(0)),
+        let index = match locked.kind {
+            "gear" => line.gears.iter().position(|gear| gear.name == locked.shaft),
+            _ => line.shafts.iter().position(|shaft| shaft.name == locked.shaft),
         };
-        let place = places.key(list, index, "name");
+        let place = places.key(locked.kind, index.unwrap_or(0), "name");
         found.push(
             Diagnostic::error(place, locked.to_string())
                 .hint("make the gear ratios on both paths of the loop agree"),

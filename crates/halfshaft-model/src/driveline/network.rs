@@ -83,6 +83,10 @@ impl Network {
             let [Some((from, from_ratio)), Some((to, to_ratio))] = self.ends[*index] else {
                 return None;
             };
+            // Speeds are those of the tree, which does not reach what floats.
+            if self.unreached.binary_search(&from).is_ok() {
+                return None;
+            }
             let (from_speed, to_speed) = (speeds[from] * from_ratio, speeds[to] * to_ratio);
             if (from_speed - to_speed).abs() <= SPEED_TOLERANCE * from_speed.abs() {
                 return None;
@@ -90,6 +94,7 @@ impl Network {
             let times = from_speed / to_speed;
             Some(match line.shafts.get(*index) {
                 Some(shaft) => LockedLoop {
+                    kind: "shaft",
                     shaft: shaft.name.clone(),
                     from: shaft.from.clone(),
                     to: shaft.to.clone(),
@@ -98,6 +103,7 @@ impl Network {
                 None => {
                     let gear = line.meshes().nth(*index - line.shafts.len())?;
                     LockedLoop {
+                        kind: "gear",
                         shaft: gear.name.clone(),
                         from: gear.input.clone(),
                         to: gear.output.clone(),
@@ -119,10 +125,12 @@ fn mesh_ends(gear: &Gear, topology: &Topology) -> [End; 2] {
 /// A loop of shafts between gears that only turns by winding up.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "the loop that \"{shaft}\" closes cannot turn: \"{from}\" would turn at {times:.6} times \
+    "the loop that {kind} \"{shaft}\" closes cannot turn: \"{from}\" would turn at {times:.6} times \
      the speed of \"{to}\""
 )]
 pub struct LockedLoop {
+    /// "shaft" or "gear".
+    pub kind: &'static str,
     /// The shaft, or gear with an elastic mesh, that closes the loop.
     pub shaft: String,
     /// Its `from` node, or input.

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::shaft::{DAMPING_ACTS, IN_CONTACT, is_true};
 use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
 
@@ -28,6 +29,9 @@ pub struct Gear {
     /// Viscous damping of the mesh at the output, N·m·s/rad; `None` for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_nm_s_per_rad: Option<f64>,
+    /// Whether the damping of the mesh acts in its backlash too.
+    #[serde(skip_serializing_if = "is_true")]
+    pub damps_in_gap: bool,
     /// Total backlash of the mesh at the output, rad; `None` for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_rad: Option<f64>,
@@ -69,8 +73,9 @@ pub static GEAR: TableSpec = TableSpec {
         KeySpec::new(
             "damping",
             ValueSpec::Quantity(QuantityKind::Damping, Sign::NonNegative),
-            "Viscous damping of an elastic mesh, at the output; acts in the backlash too. Default 0.",
+            "Viscous damping of an elastic mesh, at the output. Default 0.",
         ),
+        DAMPING_ACTS,
         KeySpec::new(
             "clearance",
             ValueSpec::Quantity(QuantityKind::Angle, Sign::NonNegative),
@@ -91,6 +96,7 @@ impl Gear {
             ratios: table.numbers("ratios").to_vec(),
             stiffness_nm_per_rad: elastic.then(|| table.number_or_stand_in("stiffness")),
             damping_nm_s_per_rad: table.number("damping"),
+            damps_in_gap: table.word("damping_acts") != Some(IN_CONTACT),
             clearance_rad: table.number("clearance"),
         }
     }

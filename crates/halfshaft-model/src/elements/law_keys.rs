@@ -24,6 +24,9 @@ pub(crate) fn check_shaft(shaft: &CheckedTable, found: &mut Diagnostics) {
                 .hint("stages are for positive twist, coast_stages for negative"),
         );
     }
+    if !shaft.mentions("clearance") && !shaft.mentions("contact") {
+        no_free_play(shaft, "clearance or contact", found);
+    }
     if shaft.mentions("friction_speed") && !shaft.mentions("friction") {
         found.push(
             Diagnostic::warning(
@@ -32,6 +35,15 @@ pub(crate) fn check_shaft(shaft: &CheckedTable, found: &mut Diagnostics) {
             )
             .hint("add friction = \"... N·m\""),
         );
+    }
+}
+
+/// Where there is no free play, damping has no place to pause.
+fn no_free_play(table: &CheckedTable, free_play: &str, found: &mut Diagnostics) {
+    if table.mentions("damping_acts") {
+        let message = format!("damping_acts does nothing without a {free_play}");
+        found
+            .push(Diagnostic::warning(table.span_of("damping_acts"), message).hint("leave it out"));
     }
 }
 
@@ -73,6 +85,9 @@ fn check_polynomial(shaft: &CheckedTable, found: &mut Diagnostics) {
 
 /// Adds what does not go together in a gear.
 pub(crate) fn check_gear(gear: &CheckedTable, found: &mut Diagnostics) {
+    if !gear.mentions("clearance") {
+        no_free_play(gear, "clearance", found);
+    }
     if gear.mentions("stiffness") {
         return;
     }

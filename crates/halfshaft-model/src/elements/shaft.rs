@@ -36,8 +36,11 @@ pub struct Shaft {
     pub quintic_nm_per_rad5: f64,
     /// `k7`, N·m/rad⁷.
     pub septic_nm_per_rad7: f64,
-    /// Viscous damping `c`, N·m·s/rad; acts at every twist.
+    /// Viscous damping `c`, N·m·s/rad.
     pub damping_nm_s_per_rad: f64,
+    /// Whether the damping acts at every twist, or only in contact beyond a clearance.
+    #[serde(skip_serializing_if = "is_true")]
+    pub damps_in_gap: bool,
     /// Torque at zero twist beside the law, N·m.
     #[serde(skip_serializing_if = "is_zero")]
     pub preload_nm: f64,
@@ -71,6 +74,10 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
+pub(super) fn is_true(value: &bool) -> bool {
+    *value
+}
+
 fn is_default_speed(value: &f64) -> bool {
     (*value - FRICTION_SPEED_RAD_S).abs() == 0.0
 }
@@ -94,6 +101,18 @@ const fn quantity(
 const fn planned(name: &'static str, doc: &'static str) -> KeySpec {
     KeySpec::new(name, ValueSpec::Text, doc).refused(PLANNED_DIMENSIONS)
 }
+
+/// Where damping acts: at every twist, or only in contact.
+const DAMPING_WORDS: [&str; 2] = ["always", IN_CONTACT];
+/// Damping that acts in contact only.
+pub(super) const IN_CONTACT: &str = "in contact";
+
+pub(super) const DAMPING_ACTS: KeySpec = KeySpec::new(
+    "damping_acts",
+    ValueSpec::Choice(&DAMPING_WORDS),
+    "Where the damping acts: \"always\", inside a clearance or before a contact too, or only \
+     \"in contact\", so that there is no torque at all in free play. Default \"always\".",
+);
 
 /// Keys of `[[shaft]]`.
 pub static SHAFT: TableSpec = TableSpec {
@@ -126,8 +145,9 @@ pub static SHAFT: TableSpec = TableSpec {
             "damping",
             QuantityKind::Damping,
             Sign::NonNegative,
-            "Viscous damping c in parallel; acts at every twist, inside a clearance too. Default 0.",
+            "Viscous damping c in parallel. Default 0.",
         ),
+        DAMPING_ACTS,
         stiffness("quadratic", 2, "k2: makes drive and coast side differ. Default 0."),
         stiffness("cubic", 3, "k3: hardening above zero, softening below. Default 0."),
         stiffness("quintic", 5, "k5. Default 0."),
@@ -136,9 +156,9 @@ pub static SHAFT: TableSpec = TableSpec {
             "clearance",
             QuantityKind::Angle,
             Sign::NonNegative,
-            "Total backlash: no torque while |x| is less than half of it; outside, the polynomial acts \
-             on the penetration |x| - clearance/2, with the sign of x. A mean torque moves the \
-             working point onto a flank by itself. Optional.",
+            "Total backlash: no torque while the twist is less than half of it to either side; beyond, \
+             the polynomial acts on the penetration, with the sign of the twist. A mean torque moves \
+             the working point onto a flank by itself. Optional.",
         ),
         quantity(
             "contact",
@@ -211,6 +231,7 @@ impl Shaft {
             quintic_nm_per_rad5: table.number_or("quintic", 0.0),
             septic_nm_per_rad7: table.number_or("septic", 0.0),
             damping_nm_s_per_rad: table.number_or("damping", 0.0),
+            damps_in_gap: table.word("damping_acts") != Some(IN_CONTACT),
             preload_nm: table.number_or("preload", 0.0),
             clearance_rad: table.number("clearance"),
             contact_rad: table.number("contact"),

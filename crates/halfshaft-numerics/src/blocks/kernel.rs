@@ -103,7 +103,13 @@ pub(super) fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
 
 /// `out -= A B` with `A` `rows` by `inner` and `B` `inner` by `columns`.
 #[inline]
-pub(super) fn subtract_product(a: &[f64], b: &[f64], inner: usize, columns: usize, out: &mut [f64]) {
+pub(super) fn subtract_product(
+    a: &[f64],
+    b: &[f64],
+    inner: usize,
+    columns: usize,
+    out: &mut [f64],
+) {
     for (row, target) in a.chunks_exact(inner).zip(out.chunks_exact_mut(columns)) {
         for (factor, source) in row.iter().zip(b.chunks_exact(columns)) {
             if *factor != 0.0 {

@@ -29,7 +29,8 @@ impl Pattern {
         let mut later_nodes = Vec::with_capacity(nodes);
         let mut left: Vec<bool> = vec![true; nodes];
         for _ in 0..nodes {
-            let least = (0..nodes).filter(|node| left[*node]).min_by_key(|node| joined[*node].len());
+            let least =
+                (0..nodes).filter(|node| left[*node]).min_by_key(|node| joined[*node].len());
             let Some(node) = least else { break };
             left[node] = false;
             let around: Vec<usize> = joined[node].iter().copied().collect();
@@ -47,7 +48,8 @@ impl Pattern {
         let later: Vec<Vec<usize>> = later_nodes
             .into_iter()
             .map(|around| {
-                let mut places: Vec<usize> = around.into_iter().map(|node| position[node]).collect();
+                let mut places: Vec<usize> =
+                    around.into_iter().map(|node| position[node]).collect();
                 places.sort_unstable();
                 places
             })

@@ -364,7 +364,11 @@ impl Factors {
                 subtract_transposed(block, own, &mut x[target..target + m]);
             }
             if k > 0 {
-                subtract_transposed(&system.columns[position * m * k..(position + 1) * m * k], own, y);
+                subtract_transposed(
+                    &system.columns[position * m * k..(position + 1) * m * k],
+                    own,
+                    y,
+                );
             }
         }
         let node = system.pattern.node(last) * m;

@@ -1,0 +1,112 @@
+//! Starting points: responses at chosen speeds that other branches may have missed.
+//!
+//! At a fixed speed the response is followed over the drive (the factor on all harmonic torques)
+//! with one harmonic only, from almost nothing to well beyond 1. That curve passes 1 once for each
+//! response it is connected with, also for those on detached branches, which no sweep of the speed
+//! reaches.
+
+use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_numerics::harmonics::HarmonicSet;
+use halfshaft_numerics::observer::Observer;
+
+use super::line::Line;
+use super::problem::{Axis, Failure, Problem};
+use super::system::{HarmonicSystem, Place};
+use super::tracer::{Counted, Sample, TraceSettings, Tracer, length};
+
+/// A guess at a response: coefficients of the kept groups over a set.
+#[derive(Clone, Debug)]
+pub(super) struct Seed {
+    pub(super) set: HarmonicSet,
+    pub(super) u: Vec<f64>,
+}
+
+/// Drive at which a curve begins.
+const FIRST_DRIVE: f64 = 1e-3;
+/// Drive to which a curve is followed.
+const LAST_DRIVE: f64 = 20.0;
+/// Samples of a curve at most.
+const MOST_SAMPLES: usize = 300;
+/// Miss of the tangent on these rough curves.
+const ROUGH: f64 = 0.06;
+
+/// Seeds at one speed: every passage of the drive through 1.
+pub(super) fn over_drive(
+    line: &Line,
+    rest: &[f64],
+    base: f64,
+    odd: bool,
+    highest: usize,
+    frequency: f64,
+    observer: &dyn Observer,
+    counted: &mut Counted,
+) -> Vec<Seed> {
+    let set = if odd { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) };
+    let system = HarmonicSystem::new(line.clone(), set.clone(), base);
+    let place = Place { frequency, drive: FIRST_DRIVE };
+    let u = at_rest(line, rest, &set);
+    let problem = Problem::new(system, Axis::Drive, place);
+    let settings = TraceSettings {
+        range: (0.0, LAST_DRIVE),
+        tolerance: 1.0,
+        harmonics: Some(set.highest()),
+        miss: ROUGH,
+        longest: 1.0,
+        most_samples: MOST_SAMPLES,
+        most_size: f64::INFINITY,
+    };
+    let mut tracer = Tracer::new(problem, settings, observer);
+    let mut seeds = Vec::new();
+    if let Ok(start) = tracer.seed(&set, &u, FIRST_DRIVE) {
+        let sign = if start.tangent_p < 0.0 { -1.0 } else { 1.0 };
+        let (samples, _) = tracer.follow(&start, sign);
+        for pair in samples.windows(2) {
+            if let Some(seed) = passage(&mut tracer, &pair[0], &pair[1]) {
+                seeds.push(seed);
+            }
+        }
+    }
+    counted.iterations += tracer.counted.iterations;
+    counted.steps += tracer.counted.steps;
+    seeds
+}
+
+/// The response of drive 1 between two samples of a curve over the drive.
+fn passage(tracer: &mut Tracer<'_, '_>, from: &Sample, to: &Sample) -> Option<Seed> {
+    if (from.p - 1.0) * (to.p - 1.0) > 0.0 || from.p == to.p {
+        return None;
+    }
+    let part = (1.0 - from.p) / (to.p - from.p);
+    let mut u: Vec<f64> = from.u.iter().zip(&to.u).map(|(a, b)| a + part * (b - a)).collect();
+    let size = length(&u);
+    let done: Result<_, Failure> = tracer.problem.at(&mut u, 1.0, size);
+    done.ok()?;
+    Some(Seed { set: from.set.clone(), u })
+}
+
+/// The line at rest: the mean of every kept group, nothing else.
+pub(super) fn at_rest(line: &Line, rest: &[f64], set: &HarmonicSet) -> Vec<f64> {
+    let m = set.coefficients();
+    let mut u = vec![0.0; line.nodes() * m];
+    if set.is_odd() {
+        return u;
+    }
+    let angles = rest_angles(&line.equations, rest);
+    let pinned =
+        if line.free { angles[line.skeleton.kept[line.skeleton.pattern.last()]] } else { 0.0 };
+    for (node, group) in line.skeleton.kept.iter().enumerate() {
+        let speed = line.equations.rigid.as_ref().map_or(0.0, |rigid| rigid.speeds[*group]);
+        let last = line.skeleton.kept[line.skeleton.pattern.last()];
+        let unit = line.equations.rigid.as_ref().map_or(1.0, |rigid| rigid.speeds[last]);
+        u[node * m] = angles[*group] - pinned * speed / unit;
+    }
+    u
+}
+
+/// Angles of the groups from the twists of all connections.
+fn rest_angles(equations: &EquationsOfMotion, twists: &[f64]) -> Vec<f64> {
+    let tree: Vec<f64> = equations.network.tree.iter().map(|edge| twists[edge.shaft]).collect();
+    let mut angles = vec![0.0; equations.groups()];
+    equations.group_angles(&tree, &mut angles);
+    angles
+}

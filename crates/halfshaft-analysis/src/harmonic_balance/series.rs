@@ -1,0 +1,144 @@
+//! Taylor series in time of the tangent stiffness and damping of a connection along an orbit.
+
+use halfshaft_dynamics::laws::{Friction, Piece};
+use halfshaft_numerics::harmonics::HarmonicSet;
+
+/// Highest power of time that is kept.
+pub(super) const DEGREE: usize = 20;
+
+/// Coefficients by power of time.
+pub(super) type Series = [f64; DEGREE + 1];
+
+/// Taylor coefficients about time `t` of the series `coefficients` with fundamental `speed`.
+pub(super) fn expand(
+    set: &HarmonicSet,
+    coefficients: &[f64],
+    speed: f64,
+    t: f64,
+    out: &mut Series,
+) {
+    out.fill(0.0);
+    let theta = speed * t;
+    let (sin1, cos1) = theta.sin_cos();
+    let (mut sine, mut cosine) = (0.0, 1.0);
+    let mut at = 0;
+    for (order, place) in set.places() {
+        while at < order {
+            (sine, cosine) = (sine * cos1 + cosine * sin1, cosine * cos1 - sine * sin1);
+            at += 1;
+        }
+        if order == 0 {
+            out[0] += coefficients[place];
+            continue;
+        }
+        let nu = order as f64 * speed;
+        let (a, b) = (coefficients[place], coefficients[place + 1]);
+        // Value and slope over ν; each two powers on the sign changes.
+        let (mut even, mut odd) = (a * cosine + b * sine, b * cosine - a * sine);
+        for (power, out) in out.iter_mut().enumerate() {
+            *out += even;
+            let next = odd * nu * INVERSE[power + 1];
+            odd = -even * nu * INVERSE[power + 1];
+            even = next;
+        }
+    }
+}
+
+/// `1 / k`.
+const INVERSE: [f64; DEGREE + 2] = {
+    let mut list = [0.0; DEGREE + 2];
+    let mut k = 1;
+    while k < list.len() {
+        list[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    list
+};
+
+/// The tangent stiffness `P'(x - origin)` of a piece of a law along the twist `x`.
+pub(super) fn stiffness(piece: &Piece, x: &Series, out: &mut Series) {
+    out.fill(0.0);
+    let coefficients = piece.torque.coefficients();
+    let mut shifted = *x;
+    shifted[0] -= piece.origin;
+    let mut powers = coefficients.iter().enumerate().skip(1).rev();
+    if let Some((power, k)) = powers.next() {
+        out[0] = power as f64 * k;
+    }
+    for (power, k) in powers {
+        *out = product(out, &shifted);
+        out[0] += power as f64 * k;
+    }
+}
+
+/// The slope of regularised friction along the rate of twist, given the twist.
+pub(super) fn friction_slope(friction: &Friction, x: &Series, out: &mut Series) {
+    let mut w = [0.0; DEGREE + 1];
+    for power in 0..DEGREE {
+        w[power] = (power + 1) as f64 * x[power + 1] / friction.speed_rad_s;
+    }
+    // tanh' = (1 - tanh²) w'.
+    let mut tanh = [0.0; DEGREE + 1];
+    let mut slope = [0.0; DEGREE + 1];
+    tanh[0] = w[0].tanh();
+    slope[0] = (1.0 - tanh[0]) * (1.0 + tanh[0]);
+    for k in 0..DEGREE {
+        let mut sum = 0.0;
+        for i in 0..=k {
+            sum += slope[i] * (k - i + 1) as f64 * w[k - i + 1];
+        }
+        tanh[k + 1] = sum * INVERSE[k + 1];
+        slope[k + 1] = -(0..=k + 1).map(|i| tanh[i] * tanh[k + 1 - i]).sum::<f64>();
+    }
+    let scale = friction.torque_nm / friction.speed_rad_s;
+    out.iter_mut().zip(slope).for_each(|(out, slope)| *out = scale * slope);
+}
+
+fn product(a: &Series, b: &Series) -> Series {
+    let mut out = [0.0; DEGREE + 1];
+    let length = 1 + b.iter().rposition(|value| *value != 0.0).unwrap_or(0);
+    let last = 1 + a.iter().rposition(|value| *value != 0.0).unwrap_or(0);
+    for (i, factor) in a[..last].iter().enumerate() {
+        let room = (DEGREE + 1 - i).min(length);
+        for (out, value) in out[i..i + room].iter_mut().zip(&b[..room]) {
+            *out += factor * value;
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(series: &Series, t: f64) -> f64 {
+        series.iter().rev().fold(0.0, |sum, c| sum * t + c)
+    }
+
+    // Source: the functions themselves, at a time at which the series has converged.
+    #[test]
+    fn expansions_are_the_functions() {
+        let set = HarmonicSet::all(3);
+        let x = [0.3, 1.0, -0.4, 0.0, 0.2, 0.05, -0.1];
+        let (speed, t, dt) = (2.0, 0.7, 0.08);
+        let mut series = [0.0; DEGREE + 1];
+        expand(&set, &x, speed, t, &mut series);
+        let exact = set.evaluate(&x, speed * (t + dt));
+        assert!((value(&series, dt) - exact.0).abs() < 1e-14);
+        let piece = Piece {
+            from: f64::NEG_INFINITY,
+            to: f64::INFINITY,
+            origin: 0.1,
+            torque: halfshaft_numerics::polynomial::Polynomial::new([0.0, 3.0, 0.0, -2.0]),
+        };
+        let mut k = [0.0; DEGREE + 1];
+        stiffness(&piece, &series, &mut k);
+        let by_hand = 3.0 - 6.0 * (exact.0 - 0.1).powi(2);
+        assert!((value(&k, dt) - by_hand).abs() < 1e-13);
+        let friction = Friction { torque_nm: 2.0, speed_rad_s: 5.0 };
+        let mut slope = [0.0; DEGREE + 1];
+        friction_slope(&friction, &series, &mut slope);
+        let by_hand = friction.slope(speed * exact.1);
+        assert!((value(&slope, dt) - by_hand).abs() < 1e-9, "{} {by_hand}", value(&slope, dt));
+    }
+}
