@@ -7,7 +7,7 @@
 //! | `system` | residual and Jacobian (alternating frequency-time) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer` | pseudo-arclength continuation |
-//! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
+//! | `series`, `switching`, `panels`, `monodromy`, `stability` | Floquet multipliers |
 //! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
 //! | `seeds`, `branches` | all branches, detached ones included |
 //! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
@@ -27,6 +27,7 @@ mod jumps;
 mod line;
 mod lines;
 mod monodromy;
+mod panels;
 mod parameter_answer;
 mod problem;
 mod range;
