@@ -11,6 +11,7 @@ use halfshaft_results::{
     Status, Termination,
 };
 
+use super::backbone::{BackboneSettings, backbones};
 use super::branches::{Collected, Job, TracedBranch};
 use super::channels::{ChannelValue, Channels, named, names};
 use super::jumps::jumps;
@@ -20,7 +21,6 @@ use super::range::default_range;
 use super::seeds::{Seed, over_drive};
 use super::stability::Stability;
 use super::system::{HarmonicSystem, Place};
-use super::backbone::{BackboneSettings, backbones};
 use super::tracer::{BranchEnd, Counted, LONGEST, MISS, Sample, TraceSettings, length};
 use crate::equilibrium;
 use crate::error::AnalysisError;
@@ -60,6 +60,7 @@ impl Setting {
                 reason: "the orders of the torques have no common period".to_owned(),
             });
         };
+        refuse(&equations)?;
         let states = equilibrium::find_stable(&equations)?;
         let none = vec![0.0; equations.connections.len()];
         let rest = states.primary().map_or(none, |state| state.twists.clone());
@@ -76,11 +77,7 @@ impl Setting {
     /// Orders of the excitation over the base, ascending.
     pub(super) fn orders(&self) -> Vec<usize> {
         let orders = self.line.equations.excitation.orders().into_iter();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "small counts"
-        )]
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
         let whole = orders.map(|order| (order / self.base).round() as usize);
         whole.collect()
     }
@@ -124,6 +121,23 @@ impl Setting {
             most_samples: 20_000,
             most_size: 1e9,
         }
+    }
+}
+
+/// Refuses what the method cannot represent, by name: a damper that acts in contact only makes the
+/// torque jump where the contact opens.
+fn refuse(equations: &EquationsOfMotion) -> Result<(), AnalysisError> {
+    let jumps = |c: &&halfshaft_dynamics::Connection| !c.damps_in_gap && c.damping != 0.0;
+    match equations.connections.iter().find(jumps) {
+        Some(connection) if !connection.law.is_linear() => Err(AnalysisError::MethodDoesNotFit {
+            method: "harmonic-balance",
+            reason: format!(
+                "the damper of {} acts in contact only, so its torque jumps where the contact opens; \
+                 take damping_acts = \"always\", or --method first-harmonic",
+                connection.name
+            ),
+        }),
+        _ => Ok(()),
     }
 }
 

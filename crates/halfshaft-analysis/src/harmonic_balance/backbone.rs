@@ -105,7 +105,8 @@ impl PhaseResonance {
             let phase = self.prepare(point, row)?;
             let mut step: Vec<f64> = self.system.residual.iter().map(|r| -r).collect();
             let dot = |a: &[f64]| a.iter().zip(&point.0).map(|(a, b)| a * b).sum::<f64>();
-            let mut border = [-dot(&phase), target - dot(row.0) - row.1 * point.1 - row.2 * point.2];
+            let mut border =
+                [-dot(&phase), target - dot(row.0) - row.1 * point.1 - row.2 * point.2];
             let Some(factors) = &mut self.factors else { return Err(Failure::Singular) };
             factors.solve(&mut step, &mut border);
             point.0.iter_mut().zip(&step).for_each(|(u, s)| *u += s);
@@ -144,7 +145,11 @@ impl PhaseResonance {
         Ok(phase)
     }
 
-    fn sample(&mut self, point: (Vec<f64>, f64, f64), row: (&[f64], f64, f64)) -> Result<Resonant, Failure> {
+    fn sample(
+        &mut self,
+        point: (Vec<f64>, f64, f64),
+        row: (&[f64], f64, f64),
+    ) -> Result<Resonant, Failure> {
         self.prepare(&point, row)?;
         let mut direction = vec![0.0; point.0.len()];
         let mut border = [0.0, 1.0];
@@ -164,7 +169,13 @@ impl PhaseResonance {
 
     fn use_set(&mut self, set: &HarmonicSet) {
         if self.system.set != *set {
-            *self = Self::new(self.system.line.clone(), set.clone(), self.system.base, self.order, self.span);
+            *self = Self::new(
+                self.system.line.clone(),
+                set.clone(),
+                self.system.base,
+                self.order,
+                self.span,
+            );
         }
     }
 
@@ -227,7 +238,8 @@ impl PhaseResonance {
         );
         let mut row: Vec<f64> = along.0.iter().map(|x| x / (size * size)).collect();
         let by_frequency = along.1 / (self.span * self.span);
-        let target = row.iter().zip(&straight.0).map(|(a, b)| a * b).sum::<f64>() + by_frequency * straight.1;
+        let target = row.iter().zip(&straight.0).map(|(a, b)| a * b).sum::<f64>()
+            + by_frequency * straight.1;
         let mut point = straight.clone();
         self.correct(&mut point, (&row, by_frequency, 0.0), target)?;
         let off: Vec<f64> = point.0.iter().zip(&straight.0).map(|(a, b)| a - b).collect();
@@ -287,12 +299,15 @@ pub(super) fn backbones(
                 [(Line::new(Rc::clone(&free)), true), (setting.line.clone(), false)]
             {
                 let wide = BackboneSettings { frequency: (0.3 * low, 3.0 * high), ..*settings };
-                let Some(curve) = curve(setting, line.clone(), (order, natural), &mode.shape, &wide, observer)
+                let Some(curve) =
+                    curve(setting, line.clone(), (order, natural), &mode.shape, &wide, observer)
                 else {
                     continue;
                 };
-                let curve: Vec<Resonant> =
-                    curve.into_iter().filter(|p| p.frequency >= low && p.frequency <= high).collect();
+                let curve: Vec<Resonant> = curve
+                    .into_iter()
+                    .filter(|p| p.frequency >= low && p.frequency <= high)
+                    .collect();
                 if curve.len() > 1 {
                     tables.push(table(&line, setting.base, &curve, conservative));
                 }
@@ -349,7 +364,8 @@ fn curve(
 
 /// A backbone as a table.
 fn table(line: &Line, base: f64, curve: &[Resonant], conservative: bool) -> Table {
-    let mut columns = vec![Column::new("frequency", "rad/s", curve.iter().map(|p| p.frequency).collect())];
+    let mut columns =
+        vec![Column::new("frequency", "rad/s", curve.iter().map(|p| p.frequency).collect())];
     let channels = names(&line.equations);
     let rows: Vec<Vec<(f64, f64)>> = curve
         .iter()

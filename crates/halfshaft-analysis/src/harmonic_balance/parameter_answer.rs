@@ -32,7 +32,8 @@ pub(super) fn solve(
     let parameter = line.parameter(&range.address).map_err(ChangeError::Address)?;
     let lines = Lines::new(line, parameter);
     let frequency = own.range.0;
-    let slice = |k: u32| range.from + (range.to - range.from) * f64::from(k) / f64::from(SLICES - 1);
+    let slice =
+        |k: u32| range.from + (range.to - range.from) * f64::from(k) / f64::from(SLICES - 1);
     let order = [0, SLICES - 1].into_iter().chain(1..SLICES - 1);
     let mut members = Vec::new();
     let mut odd = own.odd;
@@ -52,7 +53,14 @@ pub(super) fn solve(
         let flagged = Line::flagged(Rc::clone(&member.line.equations), &flags);
         let highest = member.excited();
         let found = over_drive(
-            &flagged, &member.rest, own.base, odd, highest, frequency, observer, &mut counted,
+            &flagged,
+            &member.rest,
+            own.base,
+            odd,
+            highest,
+            frequency,
+            observer,
+            &mut counted,
         );
         let origin = format!("a response at {} = {value}", range.address);
         seeds.extend(found.into_iter().map(|seed| (seed, *value, origin.clone())));
@@ -79,12 +87,8 @@ pub(super) fn solve(
     collected.counted.add(counted);
     let header = header(line, &Question::Resonance(question.clone()));
     let member = |value: f64| lines.at(value).map(|equations| Line::flagged(equations, &flags));
-    let along = Along {
-        address: &range.address,
-        unit: lines.parameter.unit(),
-        frequency,
-        family: &member,
-    };
+    let along =
+        Along { address: &range.address, unit: lines.parameter.unit(), frequency, family: &member };
     let mut measured = Measured::new(&setting, Some(along));
     let mut result = assemble(&setting, &collected, &mut measured, header);
     messages(&setting, question, &collected, &mut result);

@@ -204,7 +204,8 @@ impl Tracer<'_, '_> {
     fn is_zero(&mut self, judge: &mut Judge, what: &Test<'_>, sample: &Sample) -> bool {
         let Test::Crossing(crossing) = what else { return true };
         let Ok(stability) = self.judge(judge, sample) else { return false };
-        let turned = *crossing != Crossing::Pair || pair_angle(&stability).sin().abs() > LEAST_ANGLE;
+        let turned =
+            *crossing != Crossing::Pair || pair_angle(&stability).sin().abs() > LEAST_ANGLE;
         test(&stability, *crossing).abs() < 1e-6 && turned
     }
 
@@ -337,7 +338,10 @@ impl Tracer<'_, '_> {
         let mut specials = Vec::new();
         for (kind, what) in wanted {
             let place = self.locate(judge, &what, (from, to));
-            if place.is_none() && matches!(what, Test::Crossing(Crossing::Pair)) && change.abs() != 2 {
+            if place.is_none()
+                && matches!(what, Test::Crossing(Crossing::Pair))
+                && change.abs() != 2
+            {
                 // A pair outside the circle that met on the real axis.
                 continue;
             }
