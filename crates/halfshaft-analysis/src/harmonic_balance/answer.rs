@@ -150,6 +150,7 @@ pub(crate) fn solve(
         settings,
         observer,
         doublings: true,
+        stability: question.stability,
     };
     let mut collected = job.collect(&seeds);
     collected.counted.iterations += counted.iterations;

@@ -7,20 +7,26 @@
 //! | `system` | residual and Jacobian (alternating frequency-time) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer` | pseudo-arclength continuation |
-//! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
-//! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
-//! | `seeds`, `branches` | all branches, detached ones included |
+//! | `series`, `switching`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
+//! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
+//! | `orbits`, `refine` | special points of lines with kinks, by shooting |
+//! | `seeds`, `branches`, `branching` | all branches, detached ones and those that branch off included |
 //! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
 
 mod answer;
 mod branches;
+mod branching;
 mod channels;
 mod condensed;
+mod grazing;
+mod hill;
 mod jumps;
 mod line;
 mod monodromy;
+mod orbits;
 mod problem;
 mod range;
+mod refine;
 mod seeds;
 mod series;
 mod skeleton;
