@@ -11,19 +11,28 @@
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
 //! | `seeds`, `branches`, `branching` | all branches, detached ones and those that branch off included |
+//! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
+//! | `backbone` | phase resonance, and free oscillation without damping |
+//! | `parameter_answer` | a number of the line in place of the speed |
 //! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
 
 mod answer;
+mod backbone;
 mod branches;
 mod branching;
 mod channels;
 mod condensed;
+mod fold_answer;
+mod fold_system;
+mod fold_trace;
 mod grazing;
 mod hill;
 mod jumps;
 mod line;
+mod lines;
 mod monodromy;
 mod orbits;
+mod parameter_answer;
 mod problem;
 mod range;
 mod refine;
@@ -37,23 +46,5 @@ mod system;
 mod tracer;
 mod verify;
 
-use halfshaft_model::Driveline;
-use halfshaft_model::question::FoldsQuestion;
-use halfshaft_numerics::observer::Observer;
-use halfshaft_results::FoldsResult;
-
-use crate::error::AnalysisError;
-
 pub(crate) use answer::solve;
-
-/// Answers `folds`.
-pub(crate) fn solve_folds(
-    _line: &Driveline,
-    _question: &FoldsQuestion,
-    _observer: &dyn Observer,
-) -> Result<FoldsResult, AnalysisError> {
-    Err(AnalysisError::MethodDoesNotFit {
-        method: "harmonic-balance",
-        reason: "in the making".to_owned(),
-    })
-}
+pub(crate) use fold_answer::solve as solve_folds;

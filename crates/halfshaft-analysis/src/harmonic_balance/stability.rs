@@ -66,6 +66,11 @@ impl Judge {
         Self { variational, method }
     }
 
+    /// How it finds them.
+    pub(super) fn method(&self) -> StabilityMethod {
+        self.method
+    }
+
     /// The stability of a response.
     pub(super) fn stability(
         &mut self,

@@ -90,6 +90,15 @@ pub(crate) struct Counted {
     pub(crate) seeds: usize,
 }
 
+impl Counted {
+    /// Adds the effort of another part of the work.
+    pub(super) fn add(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.iterations += other.iterations;
+        self.seeds += other.seeds;
+    }
+}
+
 /// Follows branches of one curve problem.
 pub(super) struct Tracer<'t, 'f> {
     pub(super) problem: Problem<'f>,
@@ -328,9 +337,10 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let miss: Vec<f64> = u.iter().zip(&straight).map(|(a, b)| a - b).collect();
         let miss = metric.norm(&miss, p - straight_p);
         // More or fewer harmonics where the tolerance asks for them.
+        let mut resized = weights.clone();
         for _ in 0..MOST_HARMONICS {
             let Some(next) = self.adapted(set, &u) else { break };
-            let resized = refit(set, &next, 1, &weights);
+            resized = refit(set, &next, 1, &resized);
             self.use_set(&next, &mut u, set);
             *set = next;
             let condition = Condition { row: &resized, corner, target: condition.target };
