@@ -28,11 +28,25 @@ mod time_response;
 mod verification;
 
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{Question, ResonanceMethod};
+use halfshaft_model::question::{FoldsQuestion, Question, ResonanceMethod};
 use halfshaft_numerics::observer::Observer;
-use halfshaft_results::Answer;
+use halfshaft_results::{Answer, ResponseCount};
 
 pub use error::AnalysisError;
+
+/// Numbers of periodic responses that coexist, by the first harmonic, at all pairs of excitation
+/// speeds (rad/s) and values of the parameter of a question about folds.
+///
+/// # Errors
+/// [`AnalysisError::MethodDoesNotFit`] for a line with several nonlinear shafts.
+pub fn response_count(
+    line: &Driveline,
+    question: &FoldsQuestion,
+    speeds: &[f64],
+    parameters: &[f64],
+) -> Result<ResponseCount, AnalysisError> {
+    first_harmonic::response_count(line, question, speeds, parameters)
+}
 
 /// Answers a question about a line.
 ///

@@ -29,8 +29,8 @@ mod table;
 
 pub use answer::Answer;
 pub use check::{
-    CheckResult, CheckedGear, CheckedHarmonic, CheckedPulse, CheckedShaft, CheckedTorque, Member,
-    NonlinearTerm, ReducedInertia,
+    CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
+    CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
 };
 pub use equilibrium::{
     Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, SharedLoad, StaticResult,

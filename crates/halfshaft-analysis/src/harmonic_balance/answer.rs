@@ -5,7 +5,6 @@ use std::rc::Rc;
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, ResonanceQuestion};
-use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Branch, Column, Effort, Header, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
@@ -22,7 +21,6 @@ use super::seeds::{Seed, over_drive};
 use super::stability::Stability;
 use super::system::{HarmonicSystem, Place};
 use super::tracer::{BranchEnd, Counted, LONGEST, MISS, Sample, TraceSettings};
-use crate::averaging::ModeEquation;
 use crate::equilibrium;
 use crate::error::AnalysisError;
 use crate::header::header;
@@ -72,10 +70,6 @@ impl Setting {
         let mirrors = |order: &f64| (order / base).round() % 2.0 == 1.0;
         let odd = line.is_odd() && orders.iter().all(mirrors);
         Ok(Self { line, rest, base, odd, range })
-    }
-
-    pub(super) fn set(&self, highest: usize) -> HarmonicSet {
-        if self.odd { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) }
     }
 
     /// Highest order of the excitation over the base.
@@ -150,6 +144,7 @@ pub(crate) fn solve(
         settings,
         observer,
         doublings: true,
+        judged: true,
     };
     let mut collected = job.collect(&seeds);
     collected.counted.iterations += counted.iterations;
@@ -392,14 +387,4 @@ fn messages(
         let detail = "branches were left before their end".to_owned();
         header.termination = Termination::early(Reason::Cancelled, detail);
     }
-}
-
-/// The mode equation of a line, for what only closed forms know.
-pub(super) fn mode_equation(
-    equations: &EquationsOfMotion,
-    rest: &equilibrium::RestState,
-    mode: usize,
-    order: f64,
-) -> Result<ModeEquation, AnalysisError> {
-    ModeEquation::new(equations, rest, mode, order)
 }

@@ -50,6 +50,8 @@ pub(super) struct Job<'j, 'f> {
     pub(super) observer: &'j dyn Observer,
     /// Whether responses of twice the period are followed where they branch off.
     pub(super) doublings: bool,
+    /// Whether stability and what depends on it are wanted, or folds only.
+    pub(super) judged: bool,
 }
 
 /// Responses this near to a branch, relative, are on it.
@@ -110,7 +112,9 @@ impl<'j, 'f> Job<'j, 'f> {
         all.counted.iterations += tracer.counted.iterations;
         all.exhausted |= tracer.exhausted;
         drop(tracer);
-        self.branch_off(&mut all);
+        if self.judged {
+            self.branch_off(&mut all);
+        }
         all.cancelled |= all.branches.iter().any(|b| b.ends.contains(&BranchEnd::Cancelled));
         all
     }
@@ -160,6 +164,20 @@ impl<'j, 'f> Job<'j, 'f> {
         periods: u32,
         origin: String,
     ) -> TracedBranch {
+        if !self.judged {
+            let unknown = vec![Stability::default(); samples.len()];
+            let specials = tracer.folds(judge, &samples);
+            let base = tracer.problem.system.base;
+            return TracedBranch {
+                samples,
+                stability: unknown,
+                specials,
+                base,
+                periods,
+                origin,
+                ends,
+            };
+        }
         let stability: Vec<Stability> =
             samples.iter().map(|sample| tracer.judge(judge, sample).unwrap_or_default()).collect();
         let specials = tracer.specials(judge, &samples, &stability);

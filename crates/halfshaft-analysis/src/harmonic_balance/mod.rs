@@ -10,12 +10,16 @@
 //! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
 //! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
 //! | `seeds`, `branches` | all branches, detached ones included |
+//! | `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
 
 mod answer;
 mod branches;
 mod channels;
 mod condensed;
+mod fold_answer;
+mod fold_system;
+mod fold_trace;
 mod jumps;
 mod line;
 mod monodromy;
@@ -33,23 +37,5 @@ mod tests;
 mod tracer;
 mod verify;
 
-use halfshaft_model::Driveline;
-use halfshaft_model::question::FoldsQuestion;
-use halfshaft_numerics::observer::Observer;
-use halfshaft_results::FoldsResult;
-
-use crate::error::AnalysisError;
-
 pub(crate) use answer::solve;
-
-/// Answers `folds`.
-pub(crate) fn solve_folds(
-    _line: &Driveline,
-    _question: &FoldsQuestion,
-    _observer: &dyn Observer,
-) -> Result<FoldsResult, AnalysisError> {
-    Err(AnalysisError::MethodDoesNotFit {
-        method: "harmonic-balance",
-        reason: "in the making".to_owned(),
-    })
-}
+pub(crate) use fold_answer::solve as solve_folds;

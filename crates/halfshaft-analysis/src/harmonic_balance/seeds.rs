@@ -12,14 +12,13 @@ use halfshaft_numerics::observer::Observer;
 use super::line::Line;
 use super::problem::{Axis, Failure, Problem};
 use super::system::{HarmonicSystem, Place};
-use super::tracer::{BranchEnd, Counted, Sample, TraceSettings, Tracer, length};
+use super::tracer::{Counted, Sample, TraceSettings, Tracer, length};
 
 /// A guess at a response: coefficients of the kept groups over a set.
 #[derive(Clone, Debug)]
 pub(super) struct Seed {
     pub(super) set: HarmonicSet,
     pub(super) u: Vec<f64>,
-    pub(super) frequency: f64,
 }
 
 /// Drive at which a curve begins.
@@ -62,7 +61,7 @@ pub(super) fn over_drive(
         let sign = if start.tangent_p < 0.0 { -1.0 } else { 1.0 };
         let (samples, _) = tracer.follow(&start, sign);
         for pair in samples.windows(2) {
-            if let Some(seed) = passage(&mut tracer, &pair[0], &pair[1], frequency) {
+            if let Some(seed) = passage(&mut tracer, &pair[0], &pair[1]) {
                 seeds.push(seed);
             }
         }
@@ -73,12 +72,7 @@ pub(super) fn over_drive(
 }
 
 /// The response of drive 1 between two samples of a curve over the drive.
-fn passage(
-    tracer: &mut Tracer<'_, '_>,
-    from: &Sample,
-    to: &Sample,
-    frequency: f64,
-) -> Option<Seed> {
+fn passage(tracer: &mut Tracer<'_, '_>, from: &Sample, to: &Sample) -> Option<Seed> {
     if (from.p - 1.0) * (to.p - 1.0) > 0.0 || from.p == to.p {
         return None;
     }
@@ -87,7 +81,7 @@ fn passage(
     let size = length(&u);
     let done: Result<_, Failure> = tracer.problem.at(&mut u, 1.0, size);
     done.ok()?;
-    Some(Seed { set: from.set.clone(), u, frequency })
+    Some(Seed { set: from.set.clone(), u })
 }
 
 /// The line at rest: the mean of every kept group, nothing else.
@@ -115,9 +109,4 @@ fn rest_angles(equations: &EquationsOfMotion, twists: &[f64]) -> Vec<f64> {
     let mut angles = vec![0.0; equations.groups()];
     equations.group_angles(&tree, &mut angles);
     angles
-}
-
-/// Why the last drive was not reached, for messages.
-pub(super) fn ended_early(end: BranchEnd) -> bool {
-    !matches!(end, BranchEnd::Range | BranchEnd::Enough)
 }

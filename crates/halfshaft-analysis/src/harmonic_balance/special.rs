@@ -12,7 +12,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_results::SpecialKind;
 
 use super::problem::{Condition, Failure, Metric};
-use super::stability::{Crossing, Judge, Stability, counted, crossings, test};
+use super::stability::{Crossing, Judge, Stability, counted, crossings, pair_angle, test};
 use super::tracer::{MOST_HARMONICS, Sample, Tracer, refit};
 
 /// A special point between sample `after` and the next.
@@ -37,6 +37,9 @@ const SETTLED: f64 = 1e-11;
 const MOST_ROUNDS: usize = 12;
 /// Halvings until a test function has opposite signs at both ends.
 const MOST_HALVINGS: usize = 40;
+
+/// A pair of multipliers nearer to the real axis than this is none, rad.
+const LEAST_ANGLE: f64 = 1e-5;
 
 /// What is zero at a special point.
 pub(super) enum Test<'q> {
@@ -189,7 +192,17 @@ impl Tracer<'_, '_> {
         )
         .ok()?;
         let sample = self.between(segment, root.value, set).ok()?;
-        (!failed).then_some((sample, root.value))
+        let genuine = self.is_zero(judge, what, &sample);
+        (!failed && genuine).then_some((sample, root.value))
+    }
+
+    /// Whether a test is truly zero at a response: where multipliers meet on the real axis, away from
+    /// the unit circle, a test may change its sign by a jump.
+    fn is_zero(&mut self, judge: &mut Judge, what: &Test<'_>, sample: &Sample) -> bool {
+        let Test::Crossing(crossing) = what else { return true };
+        let Ok(stability) = self.judge(judge, sample) else { return false };
+        let turned = *crossing != Crossing::Pair || pair_angle(&stability).sin().abs() > LEAST_ANGLE;
+        test(&stability, *crossing).abs() < 1e-6 && turned
     }
 
     /// Locates a zero of a test between two samples; harmonics are added until it stands still.
@@ -257,6 +270,31 @@ impl Tracer<'_, '_> {
         found
     }
 
+    /// The folds of a branch alone.
+    pub(super) fn folds(&mut self, judge: &mut Judge, samples: &[Sample]) -> Vec<Special> {
+        let mut found = Vec::new();
+        for (after, pair) in samples.windows(2).enumerate() {
+            if pair[0].tangent_p * pair[1].tangent_p >= 0.0 {
+                continue;
+            }
+            let Some((sample, precision)) = self.locate(judge, &Test::Fold, (&pair[0], &pair[1]))
+            else {
+                continue;
+            };
+            found.push(Special {
+                kind: SpecialKind::Fold,
+                after,
+                sample,
+                stability: None,
+                precision,
+                located: true,
+                change: None,
+                note: None,
+            });
+        }
+        found
+    }
+
     fn between_pair(
         &mut self,
         judge: &mut Judge,
@@ -296,6 +334,10 @@ impl Tracer<'_, '_> {
         let mut specials = Vec::new();
         for (kind, what) in wanted {
             let place = self.locate(judge, &what, (from, to));
+            if place.is_none() && matches!(what, Test::Crossing(Crossing::Pair)) && change.abs() != 2 {
+                // A pair outside the circle that met on the real axis.
+                continue;
+            }
             let located = place.is_some();
             let (sample, precision) = place.unwrap_or_else(|| (from.clone(), f64::NAN));
             let stability = self.judge(judge, &sample).ok();

@@ -328,9 +328,10 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let miss: Vec<f64> = u.iter().zip(&straight).map(|(a, b)| a - b).collect();
         let miss = metric.norm(&miss, p - straight_p);
         // More or fewer harmonics where the tolerance asks for them.
+        let mut resized = weights.clone();
         for _ in 0..MOST_HARMONICS {
             let Some(next) = self.adapted(set, &u) else { break };
-            let resized = refit(set, &next, 1, &weights);
+            resized = refit(set, &next, 1, &resized);
             self.use_set(&next, &mut u, set);
             *set = next;
             let condition = Condition { row: &resized, corner, target: condition.target };
