@@ -58,6 +58,7 @@ fn traced_with(setting: Setting, tolerance: f64, harmonics: Option<usize>) -> Tr
         settings: setting.trace_settings(tolerance, harmonics),
         observer: &Silent,
         doublings: true,
+        judged: true,
     };
     let collected = job.collect(&seeds);
     Traced { setting, collected }
