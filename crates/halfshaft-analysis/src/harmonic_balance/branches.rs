@@ -243,7 +243,9 @@ impl<'j, 'f> Job<'j, 'f> {
         let start = start?;
         let periods = branch.periods * if doubling { 2 } else { 1 };
         let known = all.branches.iter().any(|other| {
-            other.periods == periods && other.base == base && on_mirrored(other, &start)
+            let ends_here = other.samples.last().is_some_and(|sample| sample.p == p);
+            let alike = other.periods == periods && other.base == base;
+            alike && (ends_here || on_mirrored(other, &start))
         });
         if known {
             return None;
@@ -255,9 +257,16 @@ impl<'j, 'f> Job<'j, 'f> {
         let along = start.tangent.iter().zip(&null).map(|(t, n)| t * n).sum::<f64>();
         let (samples, end) = tracer.follow(&start, if along < 0.0 { -1.0 } else { 1.0 });
         let (mut samples, end) = until_rejoined(samples, end, what, old.is_odd() || doubling);
-        // The branch begins at the point where it parts.
+        if end == BranchEnd::Enough {
+            samples.extend(last_point(&mut tracer, branch, special, &samples, factor));
+        }
+        // The branch begins at the point where it parts; the harmonics have changed on the way.
+        let mut u = u;
+        tracer.use_set(&set, &mut u, &set);
         let point = tracer.finish_sample(set, u, p, &metric, Some((&null, 0.0))).ok();
-        if let Some(point) = point {
+        if let Some(mut point) = point {
+            // It turns back there, but that is no fold of its own.
+            point.tangent_p = 0.0;
             samples.insert(0, point);
         }
         all.counted.steps += tracer.counted.steps;
@@ -276,6 +285,9 @@ impl<'j, 'f> Job<'j, 'f> {
 /// Branches that are asked for what branches off.
 const MOST_BRANCHES: usize = 24;
 
+/// A part that distinguishes two branches, relative, below which they are about to meet.
+const REJOINS: f64 = 0.3;
+
 /// What parts a branch from the one it branched off.
 #[derive(Clone, Copy)]
 enum Parting {
@@ -283,6 +295,36 @@ enum Parting {
     Doubling,
     /// Even orders.
     Mirror,
+}
+
+/// The point at which a branch comes back to the one that it branched off: the nearest point of that
+/// kind other than its own beginning.
+fn last_point(
+    tracer: &mut Tracer<'_, '_>,
+    parent: &TracedBranch,
+    begin: &Special,
+    samples: &[Sample],
+    factor: usize,
+) -> Option<Sample> {
+    let last = samples.last()?;
+    let others = parent.specials.iter().filter(|special| {
+        special.kind == begin.kind && special.located && special.sample.p != begin.sample.p
+    });
+    let near = others.min_by(|a, b| {
+        let away = |special: &Special| (special.sample.p - last.p).abs();
+        away(a).total_cmp(&away(b))
+    })?;
+    let mut u = refit(&near.sample.set, &last.set, factor, &near.sample.u);
+    let d: Vec<f64> = u.iter().zip(&last.u).map(|(a, b)| a - b).collect();
+    if length(&d) > REJOINS * length(&u) {
+        return None;
+    }
+    tracer.use_set(&last.set, &mut u, &last.set);
+    let metric = tracer.metric(&u);
+    let along = (last.tangent.as_slice(), last.tangent_p);
+    let point = tracer.finish_sample(last.set.clone(), u, near.sample.p, &metric, Some(along));
+    // It turns back there, but that is no fold of its own.
+    point.ok().map(|point| Sample { tangent_p: 0.0, ..point })
 }
 
 /// Cuts a branch where it comes back to the one that it branched off: what parts them passes through
@@ -319,7 +361,7 @@ fn until_rejoined(
     for at in 1..samples.len() {
         let (a, b) = (part(&samples[at - 1]), part(&samples[at]));
         let dot: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
-        if dot < 0.0 && length(&a) < 0.3 * length(&samples[at - 1].u) {
+        if dot < 0.0 && length(&a) < REJOINS * length(&samples[at - 1].u) {
             let mut kept = samples;
             kept.truncate(at);
             return (kept, BranchEnd::Enough);

@@ -63,7 +63,7 @@ fn derivatives_are_those_of_the_residual() {
                     let (above, below) = (at(h), at(-h));
                     above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * h)).collect::<Vec<_>>()
                 };
-                let (wide, narrow) = (quotient(2e-3), quotient(1e-3));
+                let (wide, narrow) = (quotient(2e-4), quotient(1e-4));
                 wide.iter().zip(&narrow).map(|(w, n)| (4.0 * n - w) / 3.0).collect::<Vec<f64>>()
             };
             let moved = |h: f64| u.iter().zip(&direction).map(|(u, d)| u + h * d).collect();

@@ -4,7 +4,7 @@
 //! multipliers. The waveform is summed term by term, its residual in the equations of motion taken at
 //! many phases; the orbit is closed anew by shooting at a tolerance near rounding.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::Complex;
@@ -15,8 +15,9 @@ use halfshaft_numerics::ode::{Settings, System, Tolerance};
 use super::Traced;
 use crate::harmonic_balance::branches::TracedBranch;
 use crate::harmonic_balance::channels::group_series;
+use crate::harmonic_balance::problem::{Axis, Problem};
 use crate::harmonic_balance::system::{HarmonicSystem, Place};
-use crate::harmonic_balance::tracer::Sample;
+use crate::harmonic_balance::tracer::{Sample, length, refit};
 use crate::verification::ElasticMotion;
 
 /// Angles of all groups over one period as Fourier series.
@@ -239,4 +240,83 @@ pub(super) fn apart(a: &[Complex], b: &[Complex]) -> f64 {
         most = most.max(distance(&other) / one.modulus().max(1.0));
     }
     most
+}
+
+/// States at time 0 of all responses at an excitation speed, and of the same half a period later with
+/// the other sign, one list for each passage of a branch.
+pub(super) fn responses_at(found: &Traced, frequency: f64) -> Vec<Vec<Vec<f64>>> {
+    let mut list = Vec::new();
+    for branch in &found.collected.branches {
+        for pair in branch.samples.windows(2) {
+            if (pair[0].p < frequency) == (pair[1].p < frequency) {
+                continue;
+            }
+            let set = &pair[1].set;
+            let part = (frequency - pair[0].p) / (pair[1].p - pair[0].p);
+            let from = refit(&pair[0].set, set, 1, &pair[0].u);
+            let mut u: Vec<f64> =
+                from.iter().zip(&pair[1].u).map(|(a, b)| a + part * (b - a)).collect();
+            let line = found.setting.line.clone();
+            let place = Place { frequency, drive: 1.0 };
+            let system = HarmonicSystem::new(line, set.clone(), branch.base);
+            let mut problem = Problem::new(system, Axis::Frequency, place);
+            let size = length(&u);
+            if problem.at(&mut u, frequency, size).is_err() {
+                continue;
+            }
+            let sample = Sample { u, p: frequency, ..pair[1].clone() };
+            let wave = waveform(found, branch, &sample);
+            let motion = ElasticMotion::new(wave.equations, frequency);
+            let mut states = Vec::new();
+            for period in 0..branch.periods {
+                let theta = TAU * f64::from(period) / f64::from(branch.periods);
+                states.push(wave.state(theta, &motion));
+                let half = wave.state(theta + PI / f64::from(branch.periods), &motion);
+                states.push(half.iter().map(|x| -x).collect());
+            }
+            list.push(states);
+        }
+    }
+    list
+}
+
+/// States at time 0 of all periodic orbits that shooting finds from `starts` states of about `size`.
+pub(super) fn brute_force(
+    equations: &EquationsOfMotion,
+    frequency: f64,
+    base: f64,
+    size: f64,
+    starts: usize,
+) -> Vec<Vec<f64>> {
+    let mut motion = ElasticMotion::new(equations, frequency);
+    let (n, dimension) = (motion.twists(), motion.dimension());
+    let mut settings = PeriodicSettings::default();
+    settings.integration = Settings::with_tolerance(1e-9);
+    settings.integration.step_limit = 3000;
+    settings.newton.iteration_limit = 15;
+    let period = TAU / (base * frequency);
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for start in 0..starts {
+        // A low-discrepancy sequence (the additive recurrence of irrational numbers).
+        let part = |k: usize| {
+            let irrational = (2.0 + k as f64).sqrt() + 0.618 * k as f64;
+            2.0 * (irrational * (start as f64 + 0.5)).fract() - 1.0
+        };
+        let speed = base * frequency;
+        let guess: Vec<f64> =
+            (0..dimension).map(|k| size * part(k) * if k < n { 1.0 } else { speed }).collect();
+        let Ok(orbit) = find_orbit(&mut motion, 0.0, period, &guess, &settings) else { continue };
+        let largest = orbit.state[..n].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if !orbit.report.converged.is_converged() || orbit.residual > 1e-6 || largest > 10.0 * size {
+            continue;
+        }
+        let same = |other: &Vec<f64>| {
+            let away = other.iter().zip(&orbit.state).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+            away.sqrt() < 1e-4 * size
+        };
+        if !found.iter().any(same) {
+            found.push(orbit.state);
+        }
+    }
+    found
 }

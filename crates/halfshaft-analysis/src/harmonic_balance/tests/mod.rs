@@ -63,10 +63,3 @@ fn traced_with(setting: Setting, tolerance: f64, harmonics: Option<usize>) -> Tr
     let collected = job.collect(&seeds);
     Traced { setting, collected }
 }
-
-#[track_caller]
-fn assert_close(actual: f64, expected: f64, relative: f64) {
-    let error = (actual - expected).abs();
-    let bound = relative * expected.abs().max(f64::MIN_POSITIVE);
-    assert!(error <= bound, "{actual} is not {expected} to {relative:e} (off by {error:e})");
-}
