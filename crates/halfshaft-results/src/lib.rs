@@ -42,7 +42,7 @@ pub use history::{
     ShockDetails,
 };
 pub use modes::{Mode, ModesResult};
-pub use report::{MissingSection, ReportResult};
+pub use report::{LevelRow, MissingSection, ReportResult};
 pub use resonance::{Branch, Effort, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
 pub use special::{SpecialKind, SpecialPoint, Status};
 pub use study::{ComparisonRow, ItemStyle, StudyFigureSpec, StudyItem, StudyResult};

@@ -36,8 +36,7 @@ pub(super) struct Approach {
 impl AmplitudePolynomial {
     /// Of a shaft whose law is an odd polynomial without friction, its mean at zero.
     pub(super) fn of(law: &ShaftLaw) -> Option<Self> {
-        let polynomial =
-            law.law.polynomial().filter(|_| law.symmetric && law.friction.is_none())?;
+        let polynomial = law.law.polynomial().filter(|_| law.symmetric && law.is_plain())?;
         let k = polynomial.coefficients();
         let gains = [1, 3, 5, 7].map(|power| k[power]);
         let mut own = [0.0; 4];

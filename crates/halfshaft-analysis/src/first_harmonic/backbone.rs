@@ -22,7 +22,7 @@ impl Problem {
     /// The same line without damping and without drive.
     pub(super) fn free(&self) -> Self {
         let mut law = self.law.clone();
-        (law.damping, law.friction) = (0.0, None);
+        (law.damping, law.friction, law.contact) = (0.0, None, None);
         Self {
             equations: self.equations.clone(),
             shaft: self.shaft,

@@ -57,7 +57,8 @@ fn bounds(problem: &Problem, point: &Point<Complex>) -> Option<(f64, f64)> {
         // |F| ≤ max |T - T(m)| is below the steepest slope over the swing times the amplitude; the
         // slope is looked up about the means at rest and at this amplitude.
         let steepest = steepest(law, least);
-        let loss = law.loss(nu * least).torque;
+        let contact = law.contact.as_ref().map_or(0.0, |(damping, _)| nu * damping * least);
+        let loss = law.loss(nu * least).torque + contact;
         let reach = alpha.modulus() * least + beta.modulus() * (steepest * least + loss);
         if reach < target {
             break;
@@ -105,16 +106,20 @@ struct Discs {
 
 impl Search<'_> {
     fn discs(&self, cell: &Cell) -> Discs {
-        let Point { nu, alpha, beta, .. } = *self.point;
+        let Point { nu, beta, .. } = *self.point;
         let law = &self.problem.law;
-        let loss = law.loss(nu * cell.middle);
-        let whole = alpha.scaled(cell.middle) + beta * Complex::new(cell.at.force, loss.torque);
-        let slope = alpha + beta * Complex::new(cell.at.slope, nu * loss.first);
+        let whole = self.problem.whole(self.point, cell.middle, &cell.at);
+        let slope = self.problem.whole_slope(self.point, cell.middle, &cell.at);
         let mut slope_radius = cell.slope_radius;
+        if let Some((damping, _)) = &law.contact {
+            slope_radius += nu * damping * cell.contact_radius;
+        }
         if law.friction.is_some() {
             // The friction rises more and more slowly with the rate.
-            let (first, last) = (law.loss(nu * cell.from).first, law.loss(nu * cell.to).first);
-            slope_radius += nu * (first - loss.first).abs().max((last - loss.first).abs());
+            let first = |a: f64| law.loss(nu * a).first;
+            let middle = first(cell.middle);
+            let away = (first(cell.from) - middle).abs().max((first(cell.to) - middle).abs());
+            slope_radius += nu * away;
         }
         let slope_radius = slope_radius * beta.modulus();
         let whole_radius = (slope.modulus() + slope_radius) * cell.radius();
@@ -157,20 +162,18 @@ impl Search<'_> {
     /// `|U| - |γ|`.
     fn excess(&self, amplitude: f64, guess: f64) -> Option<f64> {
         let at = self.problem.law.balanced(amplitude, guess)?;
-        Some(self.problem.whole(self.point, amplitude, at.force).modulus() - self.target)
+        Some(self.problem.whole(self.point, amplitude, &at).modulus() - self.target)
     }
 
     /// The root of a cell with different signs at its ends, to rounding.
     fn close_in(&self, cell: &Cell, rising: bool) -> Option<(f64, Balanced)> {
-        let Point { nu, alpha, beta, .. } = *self.point;
         let law = &self.problem.law;
         let (mut low, mut high) = (cell.from, cell.to);
         let mut amplitude = cell.middle;
         let mut at = law.balanced(amplitude, cell.at.mean)?;
-        for _ in 0..200 {
-            let loss = law.loss(nu * amplitude);
-            let whole = alpha.scaled(amplitude) + beta * Complex::new(at.force, loss.torque);
-            let slope = alpha + beta * Complex::new(at.slope, nu * loss.first);
+        for _ in 0..80 {
+            let whole = self.problem.whole(self.point, amplitude, &at);
+            let slope = self.problem.whole_slope(self.point, amplitude, &at);
             let value = whole.modulus() - self.target;
             if (value < 0.0) == rising {
                 low = amplitude

@@ -62,9 +62,9 @@ fn mean_torque(problem: &Problem, response: &Response) -> f64 {
 /// Complex amplitude of the torque of the shaft, damper and friction included.
 fn shaft_torque(problem: &Problem, response: &Response) -> Complex {
     let a = response.amplitude();
-    let loss = problem.law.loss(response.nu * a).torque;
+    let resistance = problem.law.resistance(response.nu, a, &response.at).torque;
     let gain = if a > 0.0 {
-        Complex::new(response.at.force / a, loss / a)
+        Complex::new(response.at.force / a, resistance / a)
     } else {
         Complex::from(response.at.slope)
     };

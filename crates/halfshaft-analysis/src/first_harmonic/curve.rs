@@ -194,14 +194,14 @@ impl Tracer<'_, '_> {
         let border = row == 0 || row == last;
         let kind = if border { Kind::End } else { Kind::Regular };
         let mut samples = vec![Sample { response: seed, kind }];
-        let forward = self.path.direction(&start, &[1.0, 0.0, 0.0])?;
+        let (forward, sense) = self.path.direction(&start, &[1.0, 0.0, 0.0])?;
         let back = forward.map(|d| -d);
         let origin = (row, index);
         let mut ends = String::new();
         let mut closed = false;
         // From a border only one way leads inside.
         if row < last {
-            match self.walk(start, forward, origin, &mut samples) {
+            match self.walk(start, (forward, sense), origin, &mut samples) {
                 Ending::Closed => closed = true,
                 Ending::Early(reason) => ends = reason,
                 Ending::Border => {}
@@ -209,7 +209,7 @@ impl Tracer<'_, '_> {
         }
         if !closed && row > 0 {
             samples.reverse();
-            if let Ending::Early(reason) = self.walk(start, back, origin, &mut samples) {
+            if let Ending::Early(reason) = self.walk(start, (back, !sense), origin, &mut samples) {
                 ends = reason;
             }
         }
@@ -220,13 +220,13 @@ impl Tracer<'_, '_> {
     fn walk(
         &mut self,
         start: Place,
-        direction: Direction,
+        (direction, sense): (Direction, bool),
         origin: (usize, usize),
         samples: &mut Vec<Sample>,
     ) -> Ending {
         let (mut place, mut direction, mut length) = (start, direction, 0.1 * self.longest);
         for _ in 0..MOST_SAMPLES {
-            let step = match self.step(&place, &direction, &mut length) {
+            let step = match self.step(&place, (&direction, sense), &mut length) {
                 Ok(step) => step,
                 Err(reason) => {
                     if let Some(last) = samples.last_mut() {
@@ -249,7 +249,7 @@ impl Tracer<'_, '_> {
     fn step(
         &mut self,
         place: &Place,
-        direction: &Direction,
+        (direction, sense): (&Direction, bool),
         length: &mut f64,
     ) -> Result<Corrected, String> {
         loop {
@@ -258,7 +258,10 @@ impl Tracer<'_, '_> {
             let corrected = self.path.correct(&predicted, direction);
             let good = corrected.filter(|found| {
                 let straight = dot(&found.direction, direction);
-                straight > 0.97 && found.moved < 0.25 * *length && found.iterations <= 6
+                found.forward == sense
+                    && straight > 0.97
+                    && found.moved < 0.25 * *length
+                    && found.iterations <= 6
             });
             if let Some(found) = good {
                 let straight = dot(&found.direction, direction);

@@ -2,7 +2,6 @@
 
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{FoldsQuestion, Question};
-use halfshaft_numerics::Complex;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Column, FoldsResult, Header, Reason, ResponseCount, SpecialPoint, Status, Table, Termination,

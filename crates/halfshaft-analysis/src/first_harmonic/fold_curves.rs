@@ -148,7 +148,8 @@ impl Walker<'_, '_> {
         }
         if !closed {
             curve.folds.reverse();
-            let back = Fold { direction: start.direction.map(|d| -d), ..start };
+            let direction = start.direction.map(|d| -d);
+            let back = Fold { direction, forward: !start.forward, ..start };
             if let Ending::Early(reason) = self.walk(&back, origin, &mut curve.folds) {
                 curve.ends = reason;
             }
@@ -194,7 +195,7 @@ impl Walker<'_, '_> {
         let (next, iterations) = self.path.correct(&guess, &fold.direction, &fold.direction)?;
         let straight = dot(&next.direction, &fold.direction);
         let moved = norm(&self.path.between(&guess, &next.spot));
-        (straight > 0.97 && moved < 0.3 * length)
+        (next.forward == fold.forward && straight > 0.97 && moved < 0.3 * length)
             .then_some((next, straight > 0.993 && iterations <= 5))
     }
 

@@ -7,7 +7,7 @@
 use halfshaft_results::SpecialKind;
 
 use super::family::{Family, Spot};
-use super::path::{dot, norm, solve_three};
+use super::path::{norm, solve_three, tangent};
 use super::problem::Residual;
 
 /// A spot of a fold curve with its local shape.
@@ -17,6 +17,8 @@ pub(super) struct Fold {
     pub(super) residual: Residual,
     /// Scaled direction of the curve, of length one.
     pub(super) direction: [f64; 3],
+    /// Sense of the direction; the same all along a curve.
+    pub(super) forward: bool,
 }
 
 /// A special point on a fold curve.
@@ -99,11 +101,11 @@ impl FoldPath<'_> {
                 return None;
             }
             spot = self.moved(&spot, &step);
-            if length <= 1e-14 || (length <= 1e-10 && length >= 0.2 * last) {
+            if length <= 1e-15 || (length <= 1e-12 && length >= 0.5 * last) {
                 return Some((self.fold(&spot, towards)?, iteration + 1));
             }
-            // Differences cost two lines each: once more when the spot has moved far.
-            if iteration == 0 && length > 1e-3 {
+            // Differences cost two lines each: only while the spot moves far.
+            if length > 1e-5 {
                 slopes = self.family.by_parameter(&spot)?;
             }
             last = length;
@@ -115,13 +117,8 @@ impl FoldPath<'_> {
     pub(super) fn fold(&self, spot: &Spot, towards: &[f64; 3]) -> Option<Fold> {
         let (residual, at) = self.family.residual(spot)?;
         let slopes = self.family.by_parameter(spot)?;
-        let [a, b] = self.rows(&residual, slopes);
-        let cross =
-            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        let length = norm(&cross).copysign(dot(&cross, towards));
-        let direction = cross.map(|c| c / length);
-        let finite = direction.iter().all(|d| d.is_finite());
-        finite.then_some(Fold { spot: Spot { mean: at.mean, ..*spot }, residual, direction })
+        let (direction, forward) = tangent(&self.rows(&residual, slopes), towards)?;
+        Some(Fold { spot: Spot { mean: at.mean, ..*spot }, residual, direction, forward })
     }
 
     /// The special points between two neighbours on the curve.

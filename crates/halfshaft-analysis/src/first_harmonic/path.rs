@@ -42,6 +42,9 @@ struct Equations {
 pub(super) struct Corrected {
     pub(super) place: Place,
     pub(super) direction: Direction,
+    /// Sense of the direction against that which the equations give by themselves: the same all
+    /// along a branch, and another where a step has hopped over a saddle to a branch close by.
+    pub(super) forward: bool,
     pub(super) iterations: usize,
     /// Scaled distance from the predicted place.
     pub(super) moved: f64,
@@ -65,13 +68,15 @@ impl Path<'_> {
 
     fn filled(&self, point: &Point<Jet>, twist: Complex, a: f64, at: &Balanced) -> Equations {
         let Point { nu, alpha, beta, gamma } = *point;
-        let loss = self.problem.law.loss(nu * a);
-        let gain = Complex::new(at.force / a, loss.torque / a);
+        let resistance = self.problem.law.resistance(nu, a, at);
+        let gain = Complex::new(at.force / a, resistance.torque / a);
         let whole = alpha.value + beta.value * gain;
-        let slopes = Complex::new(at.slope, nu * loss.first);
+        let slopes = Complex::new(at.slope, resistance.by_a);
         let bend = beta.value * (slopes - gain).scaled(1.0 / a);
         let value = whole * twist - gamma.value;
-        let by_nu = (alpha.first + beta.first * gain + beta.value * Complex::new(0.0, loss.first))
+        let by_nu = (alpha.first
+            + beta.first * gain
+            + beta.value * Complex::new(0.0, resistance.by_nu / a))
             * twist
             - gamma.first;
         // a moves by Re(conj(X) dX)/a.
@@ -86,8 +91,12 @@ impl Path<'_> {
         }
     }
 
-    /// Direction of the curve at a place; turned to go along `towards`.
-    pub(super) fn direction(&self, place: &Place, towards: &Direction) -> Option<Direction> {
+    /// Direction of the curve at a place, turned to go along `towards`, and its sense.
+    pub(super) fn direction(
+        &self,
+        place: &Place,
+        towards: &Direction,
+    ) -> Option<(Direction, bool)> {
         let (equations, _) = self.equations(place.nu, place.twist, place.at.mean)?;
         tangent(&equations.rows, towards)
     }
@@ -148,8 +157,8 @@ impl Path<'_> {
     ) -> Option<Corrected> {
         let (equations, at) = self.equations(place.nu, place.twist, place.at.mean)?;
         place.at = at;
-        let direction = tangent(&equations.rows, towards)?;
-        Some(Corrected { place, direction, iterations, moved })
+        let (direction, forward) = tangent(&equations.rows, towards)?;
+        Some(Corrected { place, direction, forward, iterations, moved })
     }
 
     /// Scaled vector from one place to another, by the size of the first.
@@ -159,13 +168,14 @@ impl Path<'_> {
     }
 }
 
-/// Vector of length one that both rows send to zero, turned to go along `towards`.
-fn tangent([a, b]: &[[f64; 3]; 2], towards: &Direction) -> Option<Direction> {
+/// Vector of length one that both rows send to zero, turned to go along `towards`, and whether it
+/// is their cross product rather than the opposite.
+pub(super) fn tangent([a, b]: &[[f64; 3]; 2], towards: &Direction) -> Option<(Direction, bool)> {
     let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let along = dot(&cross, towards);
     let length = norm(&cross).copysign(along);
     let direction = cross.map(|c| c / length);
-    direction.iter().all(|c| c.is_finite()).then_some(direction)
+    direction.iter().all(|c| c.is_finite()).then_some((direction, along > 0.0))
 }
 
 pub(super) fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {

@@ -7,7 +7,8 @@
 //! g(ν, a) = |α_c a + β (F + i S)|² - |γ|² = 0,     α_c = α + i ν c β
 //! ```
 //!
-//! with the first harmonic `F(a)` of the law, the mean in balance, and the friction `S(ν a)`.
+//! with the first harmonic `F(a)` of the law, the mean in balance, and what resists, `S(ν, a)`: dry
+//! friction, dampers in contact.
 
 use std::cell::RefCell;
 
@@ -18,7 +19,7 @@ use super::drive::Drive;
 use super::jet::{Jet, Scalar};
 use super::limbs::{Gathered, Seen};
 use super::rest::{Rest, Statics, mean_forces};
-use super::shaft_law::{Balanced, Loss, ShaftLaw};
+use super::shaft_law::{Balanced, Resistance, ShaftLaw};
 use crate::error::AnalysisError;
 
 /// Name of the method in messages.
@@ -102,12 +103,12 @@ impl Problem {
 
     /// The residual at a frequency and an amplitude with its harmonic.
     pub(super) fn residual(&self, point: &Point<Jet>, a: f64, at: &Balanced) -> Residual {
-        residual(point, a, at, &self.law.loss(point.nu * a))
+        residual(point, a, at, &self.law.resistance(point.nu, a, at))
     }
 
     /// The complex twist at a root.
     pub(super) fn twist(&self, point: &Point<Complex>, a: f64, at: &Balanced) -> Complex {
-        let whole = self.whole(point, a, at.force);
+        let whole = self.whole(point, a, at);
         // Of the modulus a also where rounding leaves the equation not quite fulfilled.
         let turned = point.gamma / whole;
         let size = turned.modulus();
@@ -115,34 +116,40 @@ impl Problem {
     }
 
     /// `α_c a + β (F + i S)`.
-    pub(super) fn whole(&self, point: &Point<Complex>, a: f64, force: f64) -> Complex {
-        let loss = self.law.loss(point.nu * a).torque;
-        point.alpha.scaled(a) + point.beta * Complex::new(force, loss)
+    pub(super) fn whole(&self, point: &Point<Complex>, a: f64, at: &Balanced) -> Complex {
+        let resistance = self.law.resistance(point.nu, a, at).torque;
+        point.alpha.scaled(a) + point.beta * Complex::new(at.force, resistance)
+    }
+
+    /// Derivative of [`Problem::whole`] by the amplitude.
+    pub(super) fn whole_slope(&self, point: &Point<Complex>, a: f64, at: &Balanced) -> Complex {
+        let resistance = self.law.resistance(point.nu, a, at).by_a;
+        point.alpha + point.beta * Complex::new(at.slope, resistance)
     }
 
     /// Whether anything takes energy out of the motion of the shaft at a frequency.
     pub(super) fn is_damped(&self, point: &Point<Complex>) -> bool {
         let mixed = point.alpha * point.beta.conjugate();
         let size = point.alpha.modulus() * point.beta.modulus();
-        self.law.friction.is_some() || mixed.im > 1e-14 * size
+        !self.law.is_plain() || mixed.im > 1e-14 * size
     }
 }
 
-fn residual(point: &Point<Jet>, a: f64, at: &Balanced, loss: &Loss) -> Residual {
-    let Point { nu, alpha, beta, gamma } = *point;
+fn residual(point: &Point<Jet>, a: f64, at: &Balanced, resistance: &Resistance) -> Residual {
+    let Point { alpha, beta, gamma, .. } = *point;
     let i = |value: f64| Complex::new(0.0, value);
-    let torque = Complex::new(at.force, loss.torque);
-    let by_a = Complex::new(at.slope, nu * loss.first);
-    let by_nu = i(a * loss.first);
+    let torque = Complex::new(at.force, resistance.torque);
+    let by_a = Complex::new(at.slope, resistance.by_a);
+    let by_nu = i(resistance.by_nu);
     let u = alpha.value.scaled(a) + beta.value * torque;
     let u_a = alpha.value + beta.value * by_a;
     let u_nu = alpha.first.scaled(a) + beta.first * torque + beta.value * by_nu;
-    let u_aa = beta.value * Complex::new(at.bend, nu * nu * loss.second);
-    let u_anu = alpha.first + beta.first * by_a + beta.value * i(loss.first + nu * a * loss.second);
+    let u_aa = beta.value * Complex::new(at.bend, resistance.by_a_a);
+    let u_anu = alpha.first + beta.first * by_a + beta.value * i(resistance.by_a_nu);
     let u_nunu = alpha.second.scaled(a)
         + beta.second * torque
         + (beta.first * by_nu).scaled(2.0)
-        + beta.value * i(a * a * loss.second);
+        + beta.value * i(resistance.by_nu_nu);
     let part = |x: Complex, y: Complex| 2.0 * (x.re * y.re + x.im * y.im);
     let size = 1.0 / (0.5 * part(gamma.value, gamma.value));
     let by_a = part(u, u_a);

@@ -115,9 +115,8 @@ pub(super) fn response(
     amplitude: f64,
     at: &Balanced,
 ) -> Response {
-    let whole = problem.whole(point, amplitude, at.force);
-    let loss = problem.law.loss(point.nu * amplitude);
-    let slope = point.alpha + point.beta * Complex::new(at.slope, point.nu * loss.first);
+    let whole = problem.whole(point, amplitude, at);
+    let slope = problem.whole_slope(point, amplitude, at);
     Response {
         nu: point.nu,
         twist: problem.twist(point, amplitude, at),

@@ -8,7 +8,11 @@
 //! ```text
 //! dm/da = -M_1 / (M_0 + κ)        dF/da = 2 M_2 - 2 M_1² / (M_0 + κ)
 //! ```
+//!
+//! A damper `c` that acts in contact only resists with `c ν G`, where `G` is the first harmonic of a
+//! law with the same contact and stiffness one: `⟨χ sin² φ⟩` for both, with `χ` one in contact.
 
+use halfshaft_dynamics::laws::{ClearanceLaw, OneSidedContact, PolynomialLaw};
 use halfshaft_dynamics::{Connection, Friction, TorqueLaw};
 
 use super::rest::Statics;
@@ -18,7 +22,10 @@ use super::rest::Statics;
 pub(super) struct ShaftLaw {
     pub(super) law: TorqueLaw,
     pub(super) friction: Option<Friction>,
+    /// Damper that acts at every twist, N·m·s/rad.
     pub(super) damping: f64,
+    /// Damper that acts in contact only, N·m·s/rad, and the contact as a law of stiffness one.
+    pub(super) contact: Option<(f64, TorqueLaw)>,
     pub(super) statics: Statics,
     /// Whether law and load are odd, so that the mean stays at zero.
     pub(super) symmetric: bool,
@@ -48,6 +55,19 @@ pub(super) struct Balanced {
     pub(super) bend: f64,
     /// `M_0 + κ`: how strongly the mean is held.
     pub(super) held: f64,
+    /// `G` of the contact with its two derivatives by the amplitude.
+    pub(super) contact: [f64; 3],
+}
+
+/// Torque in phase with the rate of twist, `S(ν, a)`, with its derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Resistance {
+    pub(super) torque: f64,
+    pub(super) by_a: f64,
+    pub(super) by_nu: f64,
+    pub(super) by_a_a: f64,
+    pub(super) by_a_nu: f64,
+    pub(super) by_nu_nu: f64,
 }
 
 /// Torque of friction in phase with the rate, `Ψ(V)` over the amplitude `V` of the rate, with two
@@ -65,10 +85,14 @@ const MEAN_STEPS: usize = 60;
 impl ShaftLaw {
     pub(super) fn new(connection: &Connection, statics: Statics, scale: f64) -> Self {
         let unloaded = statics.asked.abs() <= 1e-13 * scale;
+        let contact = contact(&connection.law)
+            .filter(|_| !connection.damps_in_gap && connection.damping != 0.0)
+            .map(|law| (connection.damping, law));
         Self {
             law: connection.law.clone(),
             friction: connection.friction.filter(|friction| friction.torque_nm != 0.0),
-            damping: connection.damping,
+            damping: if contact.is_some() { 0.0 } else { connection.damping },
+            contact,
             symmetric: unloaded && connection.law.is_odd(),
             statics,
         }
@@ -128,6 +152,9 @@ impl ShaftLaw {
     pub(super) fn balanced_with_bend(&self, amplitude: f64, guess: f64) -> Option<Balanced> {
         let mut found = self.balanced(amplitude, guess)?;
         found.bend = self.bend(amplitude, &found);
+        if self.contact.is_some() {
+            found.contact[2] = self.sixth_order(amplitude, &found, |at| at.contact[1]);
+        }
         Some(found)
     }
 
@@ -136,7 +163,12 @@ impl ShaftLaw {
         let held = m0 + self.statics.parallel;
         // An odd law keeps its mean at zero, held or not.
         let follows = if self.symmetric || m1 == 0.0 { 0.0 } else { m1 * m1 / held };
-        Balanced { mean, force, slope: 2.0 * (m2 - follows), bend: 0.0, held }
+        let contact = self.contact.as_ref().map_or([0.0; 3], |(_, law)| {
+            let [force, c1, c2] = contact_moments(law, mean, amplitude);
+            let follows = if self.symmetric { 0.0 } else { c1 * m1 / held };
+            [force, 2.0 * (c2 - follows), 0.0]
+        });
+        Balanced { mean, force, slope: 2.0 * (m2 - follows), bend: 0.0, held, contact }
     }
 
     /// `d²F/da²`: in closed form for polynomials, else by differences of sixth order of the slope.
@@ -152,12 +184,52 @@ impl ShaftLaw {
             let (d0, d1, d2) = (along(k1, k0), along(k2, k1), along(k3, k2));
             return 2.0 * d2 + 4.0 * drift * d1 + 2.0 * drift * drift * d0;
         }
+        self.sixth_order(amplitude, at, |at| at.slope)
+    }
+
+    /// Derivative by the amplitude of a quantity in balance, by differences of sixth order.
+    fn sixth_order(
+        &self,
+        amplitude: f64,
+        at: &Balanced,
+        quantity: impl Fn(&Balanced) -> f64,
+    ) -> f64 {
         let step = 2e-3 * amplitude;
-        let slope = |k: f64| {
-            self.balanced(amplitude + k * step, at.mean).map_or(f64::NAN, |found| found.slope)
+        let there = |k: f64| {
+            self.balanced(amplitude + k * step, at.mean).map_or(f64::NAN, |found| quantity(&found))
         };
-        let odd = |k: f64| slope(k) - slope(-k);
+        let odd = |k: f64| there(k) - there(-k);
         (45.0 * odd(1.0) - 9.0 * odd(2.0) + odd(3.0)) / (60.0 * step)
+    }
+
+    /// What resists the rate of twist, dampers that act at every twist left out.
+    pub(super) fn resistance(&self, nu: f64, a: f64, at: &Balanced) -> Resistance {
+        let mut sum = Resistance::default();
+        if self.friction.is_some() {
+            let Loss { torque, first, second } = self.loss(nu * a);
+            sum = Resistance {
+                torque,
+                by_a: nu * first,
+                by_nu: a * first,
+                by_a_a: nu * nu * second,
+                by_a_nu: first + nu * a * second,
+                by_nu_nu: a * a * second,
+            };
+        }
+        if let Some((damping, _)) = &self.contact {
+            let [force, slope, bend] = at.contact.map(|g| damping * g);
+            sum.torque += nu * force;
+            sum.by_a += nu * slope;
+            sum.by_nu += force;
+            sum.by_a_a += nu * bend;
+            sum.by_a_nu += slope;
+        }
+        sum
+    }
+
+    /// Whether only the amplitude matters: no friction, no damper in contact.
+    pub(super) fn is_plain(&self) -> bool {
+        self.friction.is_none() && self.contact.is_none()
     }
 
     /// Friction at an amplitude of the rate.
@@ -173,6 +245,27 @@ impl ShaftLaw {
         let second = (45.0 * odd(1.0) - 9.0 * odd(2.0) + odd(3.0)) / (60.0 * step);
         Loss { torque, first, second }
     }
+}
+
+/// The contact of a law with free play as a law of stiffness one.
+fn contact(law: &TorqueLaw) -> Option<TorqueLaw> {
+    let one = PolynomialLaw::new([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    match law {
+        TorqueLaw::Clearance(law) if law.half_gap() > 0.0 => {
+            Some(TorqueLaw::Clearance(ClearanceLaw::new(2.0 * law.half_gap(), &one, 0.0)))
+        }
+        TorqueLaw::OneSided(law) => {
+            Some(TorqueLaw::OneSided(OneSidedContact::new(law.contact_twist(), &one, 0.0)))
+        }
+        _ => None,
+    }
+}
+
+/// First harmonic, `M_1` and `M_2` of the contact.
+pub(super) fn contact_moments(law: &TorqueLaw, mean: f64, amplitude: f64) -> [f64; 3] {
+    let of = law.describing_function(mean, amplitude);
+    let second = 0.5 * (of.gain + amplitude * of.gain_by_amplitude);
+    [of.gain * amplitude, of.mean_by_amplitude, second]
 }
 
 /// Means of `cos^n` for `n` from 0 to 10.

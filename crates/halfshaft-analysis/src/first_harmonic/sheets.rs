@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use super::enclosure::{LawBounds, Region};
-use super::shaft_law::{Balanced, ShaftLaw};
+use super::shaft_law::{Balanced, ShaftLaw, contact_moments};
 
 /// Ratio of neighbouring amplitudes of the lattice.
 const RATIO: f64 = 1.06;
@@ -31,6 +31,8 @@ pub(super) struct Cell {
     pub(super) at: Balanced,
     /// How far the slope `dF/da` may be from that at the middle.
     pub(super) slope_radius: f64,
+    /// The same of the contact's first harmonic.
+    pub(super) contact_radius: f64,
     /// How fast the mean may change with the amplitude.
     pub(super) drift: f64,
 }
@@ -46,13 +48,15 @@ impl Cell {
 pub(super) struct Sheets {
     law: ShaftLaw,
     bounds: LawBounds,
+    contact: Option<LawBounds>,
     made: RefCell<HashMap<i32, Rc<Vec<Cell>>>>,
 }
 
 impl Sheets {
     pub(super) fn new(law: &ShaftLaw) -> Self {
         let bounds = LawBounds::new(&law.law, law.statics.parallel, law.statics.asked);
-        Self { law: law.clone(), bounds, made: RefCell::default() }
+        let contact = law.contact.as_ref().map(|(_, law)| LawBounds::new(law, 0.0, 0.0));
+        Self { law: law.clone(), bounds, contact, made: RefCell::default() }
     }
 
     /// Calls `visit` for every cell between two amplitudes.
@@ -121,7 +125,8 @@ impl Sheets {
         let amplitude_radius = 0.5 * (to - from);
         let region = Region { mean: 0.0, mean_radius: 0.0, amplitude: middle, amplitude_radius };
         let radii = self.bounds.moment_radii(&region);
-        Cell { from, to, middle, at, slope_radius: 2.0 * radii[2], drift: 0.0 }
+        let contact_radius = self.contact_radius(&region, (0.0, 0.0), 1.0, [0.0; 3]);
+        Cell { from, to, middle, at, slope_radius: 2.0 * radii[2], contact_radius, drift: 0.0 }
     }
 
     /// The cell of a mean at the middle of an interval, and the half width of the box of means in
@@ -144,7 +149,9 @@ impl Sheets {
             if drift * radius <= room {
                 let [low, high] = slopes(m1, m2, at.held, [r0, r1, r2]);
                 let slope_radius = (high - at.slope).max(at.slope - low);
-                let cell = Cell { from, to, middle, at, slope_radius, drift };
+                let contact_radius =
+                    self.contact_radius(&region, (mean, m1), at.held, [r0, r1, r2]);
+                let cell = Cell { from, to, middle, at, slope_radius, contact_radius, drift };
                 return Some((cell, room));
             }
             room = 1.5 * drift * radius;
@@ -173,8 +180,31 @@ impl Sheets {
         }
         let [low, high] = slopes(m1, m2, at.held, radii);
         let slope_radius = (high - at.slope).max(at.slope - low);
-        let drift = (m1.abs() + radii[1]) / (at.held - radii[0]);
-        Some(Cell { from, to, middle, at, slope_radius, drift: drift.min(cell.drift) })
+        let drift = ((m1.abs() + radii[1]) / (at.held - radii[0])).min(cell.drift);
+        let contact_radius = self.contact_radius(&region, (at.mean, m1), at.held, radii);
+        Some(Cell { from, to, middle, at, slope_radius, contact_radius, drift })
+    }
+
+    /// How far the slope of the contact's first harmonic over a region may be from that at its
+    /// middle, where the mean and `M_1` are given.
+    fn contact_radius(
+        &self,
+        region: &Region,
+        (mean, m1): (f64, f64),
+        held: f64,
+        [r0, r1, _]: [f64; 3],
+    ) -> f64 {
+        let (Some(bounds), Some((_, law))) = (&self.contact, &self.law.contact) else { return 0.0 };
+        let [_, c1, c2] = bounds.moment_radii(region);
+        if self.law.symmetric {
+            return 2.0 * c2;
+        }
+        let [_, own, _] = contact_moments(law, mean, region.amplitude);
+        // 2 C_2 - 2 C_1 M_1/(M_0 + κ).
+        let product = (own * m1).abs();
+        let away = own.abs() * r1 + m1.abs() * c1 + r1 * c1;
+        let follows = product * r0 / (held * (held - r0)) + away / (held - r0);
+        2.0 * (c2 + follows)
     }
 
     /// All means held at amplitudes within `radius` of `amplitude`, outside the intervals of means

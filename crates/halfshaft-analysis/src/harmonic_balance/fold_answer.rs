@@ -4,13 +4,11 @@
 //! a curve of folds is followed through the plane. How many responses coexist at a point of the plane
 //! follows from the curves: every fold on the way from low speed opens or closes two of them.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
 use std::rc::Rc;
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::question::{FoldsQuestion, Question};
-use halfshaft_model::{ChangeError, Driveline, Parameter};
+use halfshaft_model::{ChangeError, Driveline};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
@@ -24,38 +22,13 @@ use super::channels::{Channels, names};
 use super::fold_system::{FoldSample, FoldSystem};
 use super::fold_trace::{FoldCurve, FoldSettings, FoldTracer, on_curve};
 use super::line::{Line, nonlinear};
+use super::lines::Lines;
 use super::problem::{Axis, Problem};
 use super::seeds::over_drive;
 use super::system::{HarmonicSystem, Place};
 use super::tracer::{Counted, LEAST_HARMONICS};
 use crate::error::AnalysisError;
 use crate::header::header;
-
-/// The line for each value of the parameter, made once.
-struct Lines<'q> {
-    line: &'q Driveline,
-    parameter: Parameter,
-    made: RefCell<HashMap<u64, Option<Rc<EquationsOfMotion>>>>,
-}
-
-/// Lines that are kept.
-const MOST_LINES: usize = 512;
-
-impl Lines<'_> {
-    fn at(&self, value: f64) -> Option<Rc<EquationsOfMotion>> {
-        if let Some(known) = self.made.borrow().get(&value.to_bits()) {
-            return known.clone();
-        }
-        let line = self.line.with(&self.parameter, value).ok();
-        let made = line.and_then(|line| EquationsOfMotion::new(&line).ok()).map(Rc::new);
-        let mut store = self.made.borrow_mut();
-        if store.len() >= MOST_LINES {
-            store.clear();
-        }
-        store.insert(value.to_bits(), made.clone());
-        made
-    }
-}
 
 /// Values of the parameter at which response curves are followed, beside the model's own.
 const SLICES: u32 = 5;
@@ -69,7 +42,7 @@ pub(crate) fn solve(
     observer: &dyn Observer,
 ) -> Result<FoldsResult, AnalysisError> {
     let parameter = line.parameter(&question.parameter.address).map_err(ChangeError::Address)?;
-    let lines = Lines { line, parameter, made: RefCell::default() };
+    let lines = Lines::new(line, parameter);
     let (from, to) = (question.parameter.from, question.parameter.to);
     let own = lines.parameter.value(line).filter(|value| (from..=to).contains(value));
     let slice = |k: u32| from + (to - from) * f64::from(k) / f64::from(SLICES - 1);

@@ -10,10 +10,13 @@
 //! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
 //! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
 //! | `seeds`, `branches` | all branches, detached ones included |
-//! | `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
+//! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
+//! | `backbone` | phase resonance, and free oscillation without damping |
+//! | `parameter_answer` | a number of the line in place of the speed |
 //! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
 
 mod answer;
+mod backbone;
 mod branches;
 mod channels;
 mod condensed;
@@ -22,7 +25,9 @@ mod fold_system;
 mod fold_trace;
 mod jumps;
 mod line;
+mod lines;
 mod monodromy;
+mod parameter_answer;
 mod problem;
 mod range;
 mod seeds;

@@ -48,13 +48,32 @@ pub(super) struct Variational {
     twists: Vec<f64>,
     net: Vec<f64>,
     torque: Vec<f64>,
+    slope: Vec<f64>,
     reference_speed: f64,
+    /// Instructions of the processor at hand.
+    arch: pulp::Arch,
 }
 
 /// Size of the last terms of a step relative to the first.
-const ROUNDING: f64 = 1e-14;
+const ROUNDING: f64 = 1e-12;
+/// Terms of a tangent stiffness that change a step by less than this part are left out.
+const NEGLIGIBLE: f64 = 1e-17;
+/// A step is at most so many times as long as the one before.
+const LARGEST_GROWTH: f64 = 2.0;
 /// Steps a period at most.
 const MOST_STEPS: usize = 100_000;
+
+/// Work that runs with the widest instructions of the processor.
+struct Wide<F>(F);
+
+impl<R, F: FnOnce() -> R> pulp::NullaryFnOnce for Wide<F> {
+    type Output = R;
+
+    #[inline(always)]
+    fn call(self) -> R {
+        (self.0)()
+    }
+}
 
 /// Tangent stiffness and damping of one connection over a step.
 #[derive(Clone)]
@@ -81,7 +100,9 @@ impl Variational {
             twists: vec![0.0; laws.len() * (DEGREE + 1) * columns],
             net: vec![0.0; groups * columns],
             torque: vec![0.0; columns],
+            slope: vec![0.0; groups * columns],
             reference_speed: 1.0,
+            arch: pulp::Arch::new(),
             laws,
             with_speed,
             columns,
@@ -123,15 +144,19 @@ impl Variational {
         breaks.sort_by(f64::total_cmp);
         let mut t = 0.0;
         let mut steps = 0;
+        let mut longest = f64::INFINITY;
         for goal in breaks {
             if goal - t <= 1e-13 * end {
                 continue;
             }
             let pieces = self.active(orbit, f64::midpoint(t, goal));
             while t < goal {
-                let tangents = self.tangents(equations, orbit, &pieces, t);
+                let reach = longest.min(goal - t);
+                let tangents = self.tangents(equations, orbit, &pieces, t, reach);
                 self.recur(equations, &tangents);
-                let step = self.step_length().min(goal - t);
+                let free = self.step_length();
+                longest = LARGEST_GROWTH * free;
+                let step = free.min(reach);
                 // A sliver left over would cost a step of its own.
                 let step = if goal - t - step < 1e-3 * step { goal - t } else { step };
                 self.advance(step);
@@ -169,6 +194,7 @@ impl Variational {
         orbit: &Orbit<'_>,
         pieces: &[Option<Piece>],
         t: f64,
+        reach: f64,
     ) -> Vec<Tangent> {
         let zero = [0.0; DEGREE + 1];
         let mut tangents: Vec<Tangent> = (equations.connections.iter())
@@ -185,11 +211,11 @@ impl Variational {
             let tangent = &mut tangents[*connection];
             expand(orbit.set, twist, orbit.speed, t, &mut x);
             stiffness(piece, &x, &mut tangent.stiffness);
-            tangent.stiffness_terms = terms(&tangent.stiffness);
+            tangent.stiffness_terms = terms(&tangent.stiffness, reach);
             if let Some(friction) = &equations.connections[*connection].friction {
                 friction_slope(friction, &x, &mut tangent.damping);
                 tangent.damping[0] += equations.connections[*connection].damping;
-                tangent.damping_terms = terms(&tangent.damping);
+                tangent.damping_terms = terms(&tangent.damping, reach);
             }
         }
         tangents
@@ -224,6 +250,12 @@ impl Variational {
 
     /// All Taylor coefficients of the columns from those of powers 0 and 1.
     fn recur(&mut self, equations: &EquationsOfMotion, tangents: &[Tangent]) {
+        let arch = self.arch;
+        arch.dispatch(Wide(|| self.recur_wide(equations, tangents)));
+    }
+
+    #[inline(always)]
+    fn recur_wide(&mut self, equations: &EquationsOfMotion, tangents: &[Tangent]) {
         let (groups, n) = (equations.groups(), self.columns);
         let plane = groups * n;
         for power in 0..DEGREE - 1 {
@@ -272,6 +304,7 @@ impl Variational {
     }
 
     /// Twist coefficients of one power of one connection, from the angles.
+    #[inline(always)]
     fn twist_row(
         &mut self,
         connection: &halfshaft_dynamics::Connection,
@@ -299,6 +332,11 @@ impl Variational {
 
     /// The step after which the last two terms are rounding beside the first.
     fn step_length(&self) -> f64 {
+        self.arch.dispatch(Wide(|| self.step_length_wide()))
+    }
+
+    #[inline(always)]
+    fn step_length_wide(&self) -> f64 {
         let plane = self.net.len();
         let size = |power: usize| {
             let terms = &self.angles[power * plane..(power + 1) * plane];
@@ -317,6 +355,12 @@ impl Variational {
 
     /// Moves angles and speeds on by `step`.
     fn advance(&mut self, step: f64) {
+        let arch = self.arch;
+        arch.dispatch(Wide(|| self.advance_wide(step)));
+    }
+
+    #[inline(always)]
+    fn advance_wide(&mut self, step: f64) {
         let plane = self.net.len();
         let (low, high) = self.angles.split_at_mut(2 * plane);
         let (angle, speed) = low.split_at_mut(plane);
@@ -324,15 +368,16 @@ impl Variational {
         let term = |power: usize| &high[(power - 2) * plane..(power - 1) * plane];
         self.net.fill(0.0);
         let value = &mut self.net;
-        let mut slope = vec![0.0; plane];
+        self.slope.fill(0.0);
+        let slope = &mut self.slope;
         for power in (2..=DEGREE).rev() {
-            for ((value, slope), term) in value.iter_mut().zip(&mut slope).zip(term(power)) {
+            for ((value, slope), term) in value.iter_mut().zip(slope.iter_mut()).zip(term(power)) {
                 *slope = *slope * step + *value;
                 *value = *value * step + term;
             }
         }
         for (((angle, speed), value), slope) in
-            angle.iter_mut().zip(speed.iter_mut()).zip(value.iter()).zip(&slope)
+            angle.iter_mut().zip(speed.iter_mut()).zip(value.iter()).zip(slope.iter())
         {
             // q = q0 + q1 t + t² v(t), q' = q1 + 2 t v + t² v'.
             let rate = *speed;
@@ -365,12 +410,23 @@ impl Variational {
     }
 }
 
-/// Terms of a series until the rest is rounding over any step that the columns allow.
-fn terms(series: &Series) -> usize {
-    1 + series.iter().rposition(|value| *value != 0.0).unwrap_or(0)
+/// Terms of a series until the rest is rounding over a step of the given length.
+fn terms(series: &Series, reach: f64) -> usize {
+    let mut power = 1.0;
+    let mut largest = 0.0_f64;
+    let mut last = 0;
+    for (index, value) in series.iter().enumerate() {
+        let size = (value * power).abs();
+        largest = largest.max(size);
+        if size > NEGLIGIBLE * largest {
+            last = index;
+        }
+        power *= reach;
+    }
+    last + 1
 }
 
-#[inline]
+#[inline(always)]
 fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;

@@ -11,7 +11,7 @@ use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_results::SpecialKind;
 
-use super::problem::{Condition, Failure, Metric};
+use super::problem::{Axis, Condition, Failure, Metric};
 use super::stability::{Crossing, Judge, Stability, counted, crossings, pair_angle, test};
 use super::tracer::{MOST_HARMONICS, Sample, Tracer, refit};
 
@@ -126,7 +126,10 @@ impl Tracer<'_, '_> {
         let mut u = sample.u.clone();
         self.use_set(&sample.set, &mut u, &sample.set);
         let place = self.problem.place_at(sample.p);
-        self.problem.line_at(sample.p)?;
+        if matches!(self.problem.axis, Axis::Parameter(_)) {
+            self.problem.line_at(sample.p)?;
+            *judge = Judge::new(&self.problem.system);
+        }
         judge.stability(&self.problem.system, &sample.u, place)
     }
 
@@ -201,7 +204,8 @@ impl Tracer<'_, '_> {
     fn is_zero(&mut self, judge: &mut Judge, what: &Test<'_>, sample: &Sample) -> bool {
         let Test::Crossing(crossing) = what else { return true };
         let Ok(stability) = self.judge(judge, sample) else { return false };
-        let turned = *crossing != Crossing::Pair || pair_angle(&stability).sin().abs() > LEAST_ANGLE;
+        let turned =
+            *crossing != Crossing::Pair || pair_angle(&stability).sin().abs() > LEAST_ANGLE;
         test(&stability, *crossing).abs() < 1e-6 && turned
     }
 
@@ -334,7 +338,10 @@ impl Tracer<'_, '_> {
         let mut specials = Vec::new();
         for (kind, what) in wanted {
             let place = self.locate(judge, &what, (from, to));
-            if place.is_none() && matches!(what, Test::Crossing(Crossing::Pair)) && change.abs() != 2 {
+            if place.is_none()
+                && matches!(what, Test::Crossing(Crossing::Pair))
+                && change.abs() != 2
+            {
                 // A pair outside the circle that met on the real axis.
                 continue;
             }

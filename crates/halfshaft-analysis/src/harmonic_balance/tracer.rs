@@ -90,6 +90,15 @@ pub(crate) struct Counted {
     pub(crate) seeds: usize,
 }
 
+impl Counted {
+    /// Adds the effort of another part of the work.
+    pub(super) fn add(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.iterations += other.iterations;
+        self.seeds += other.seeds;
+    }
+}
+
 /// Follows branches of one curve problem.
 pub(super) struct Tracer<'t, 'f> {
     pub(super) problem: Problem<'f>,

@@ -7,7 +7,7 @@ use super::axes::{column_axis, curve, name, speed_axis};
 use super::{marks, resonance};
 use crate::account::periodic::periods_words;
 use crate::figure::{Axis, Colour, Curve, Figure, Item, Line, Panel, Reference, escape};
-use crate::reading::{Abscissa, Reading, is_detached};
+use crate::reading::{Abscissa, Reading};
 use crate::words::unit;
 
 /// The figures, each with its id.
@@ -65,7 +65,7 @@ pub(super) fn axis(x: &Abscissa) -> Axis {
 /// The name and the colour of a branch: what a slow sweep shows, what it does not, and what repeats
 /// after more than one period.
 fn look(branch: &Branch) -> (String, Colour) {
-    match (branch.periods, is_detached(branch)) {
+    match (branch.periods, branch.is_detached()) {
         (0 | 1, false) => ("response".to_owned(), Colour::PRIMARY),
         (0 | 1, true) => ("detached response".to_owned(), Colour::Orange),
         (periods, detached) => {
@@ -142,7 +142,7 @@ fn caption(reading: &Reading<'_>) -> String {
     if has(SpecialKind::Fold) {
         text += " At the folds a slow sweep jumps.";
     }
-    if result.branches.iter().any(is_detached) {
+    if result.branches.iter().any(Branch::is_detached) {
         text += " No sweep reaches the detached response.";
     }
     if !result.backbones.is_empty() {
