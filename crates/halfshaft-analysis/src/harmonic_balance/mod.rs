@@ -44,6 +44,8 @@ mod special;
 mod stability;
 mod switching;
 mod system;
+#[cfg(test)]
+mod tests;
 mod tracer;
 mod verify;
 
