@@ -91,11 +91,6 @@ impl Grid {
         Self { nus, rows, open }
     }
 
-    /// All responses at one frequency of the grid.
-    pub(super) fn responses(&self, row: usize) -> impl Iterator<Item = &Response> {
-        self.rows[row].iter().map(|known| &known.response)
-    }
-
     fn largest(&self) -> f64 {
         let all = self.rows.iter().flatten();
         all.map(|known| known.response.amplitude()).fold(0.0, f64::max)
