@@ -9,7 +9,7 @@
 //! | `tracer` | pseudo-arclength continuation |
 //! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
 //! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
-//! | `seeds`, `branches` | all branches, detached ones included |
+//! | `seeds`, `tips`, `branches` | all branches, detached ones included |
 //! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
@@ -39,6 +39,7 @@ mod switching;
 mod system;
 #[cfg(test)]
 mod tests;
+mod tips;
 mod tracer;
 mod verify;
 
