@@ -20,7 +20,7 @@ pub struct MissingSection {
 /// One value by every method that tells it: what a report holds side by side.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LevelRow {
-    /// What it is, in words: "largest response, speed".
+    /// What it is, in words: "peak: speed".
     pub what: String,
     /// Excitation speed at which it is taken, rad/s, where the speed is not itself what differs.
     pub at: Option<f64>,

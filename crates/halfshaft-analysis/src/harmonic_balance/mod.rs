@@ -7,29 +7,38 @@
 //! | `system` | residual and Jacobian (alternating frequency-time) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer` | pseudo-arclength continuation |
-//! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
-//! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
-//! | `seeds`, `tips`, `branches` | all branches, detached ones included |
+//! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
+//! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
+//! | `orbits`, `refine` | special points of lines with kinks, by shooting |
+//! | `seeds`, `tips`, `branches`, `branching` | all branches, detached ones and those that branch off included |
 //! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
 //! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
+//! | `layers` | single layers, for benches |
 
 mod answer;
 mod backbone;
 mod branches;
+mod branching;
 mod channels;
 mod condensed;
 mod fold_answer;
 mod fold_system;
 mod fold_trace;
+mod grazing;
+mod hill;
 mod jumps;
+pub mod layers;
 mod line;
 mod lines;
 mod monodromy;
+mod orbits;
+mod panels;
 mod parameter_answer;
 mod problem;
 mod range;
+mod refine;
 mod seeds;
 mod series;
 mod skeleton;

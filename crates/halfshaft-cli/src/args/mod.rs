@@ -59,8 +59,8 @@ pub enum Command {
     /// Everything about a driveline in one self-contained HTML page
     ///
     /// Summary in plain words first, then static, modes, shock, resonance and fold curves with
-    /// figures to zoom and read off, and the closed forms held against integration. Without --out it
-    /// is report.html.
+    /// figures to zoom and read off; closed form, first harmonic, harmonic balance and integration
+    /// stand side by side with their differences in numbers. Without --out it is report.html.
     #[command(after_help = "Examples:
   halfshaft report                               the built-in example, in report.html
   halfshaft report my-line.toml --out line.html

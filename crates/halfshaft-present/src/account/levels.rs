@@ -27,7 +27,7 @@ pub(crate) fn account(report: &ReportResult) -> Account {
     account.figure(crate::figures::levels::ID);
     account.grid(grid(&report.levels));
     account.note(
-        "Each difference is taken against integration of the full equations where there is a value of \
+        "Twists are first harmonics. Each difference is taken against integration of the full equations where there is a value of \
          it, else against harmonic balance.",
     );
     account

@@ -30,7 +30,11 @@ pub(super) fn methods(report: &ReportResult) -> Option<Finding> {
         .iter()
         .filter_map(|missing| {
             let reason = minus(&plain(&missing.reason));
-            Some(format!("{} gives no answer: {reason}", method(&missing.section)?.with_article()))
+            let method = method(&missing.section)?.with_article();
+            Some(match reason.split_once("does not fit this line: ") {
+                Some((_, why)) => format!("{method} does not fit this line: {why}"),
+                None => format!("{method} gives no answer: {reason}"),
+            })
         })
         .collect();
     if absent.is_empty() {

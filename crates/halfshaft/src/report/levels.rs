@@ -37,7 +37,7 @@ pub(super) fn levels(
     let column = format!("{channel}.harmonic1");
     let mut rows = Vec::new();
     let peaks = methods.map(|result| result.as_ref().and_then(|result| peak(result, &column)));
-    rows.extend(pair("largest response", peaks));
+    rows.extend(pair("peak", peaks));
     rows.extend(folds(methods, &column));
     let checks = best.verification.iter().filter(|point| point.channel == channel);
     rows.extend(checks.map(|point| checked(line, report, point, &column, observer)));
@@ -48,7 +48,7 @@ pub(super) fn levels(
 /// Speed and swing of a point by closed form, first harmonic and harmonic balance.
 fn pair(what: &str, [closed, first, balance]: [Option<Point>; 3]) -> Vec<LevelRow> {
     let row = |quantity: &str, unit: &str, of: fn(Point) -> f64| LevelRow {
-        what: format!("{what}, {quantity}"),
+        what: format!("{what}: {quantity}"),
         unit: unit.to_owned(),
         closed_form: closed.map(of),
         first_harmonic: first.map(of),
@@ -57,7 +57,7 @@ fn pair(what: &str, [closed, first, balance]: [Option<Point>; 3]) -> Vec<LevelRo
     };
     vec![
         row("speed", "rad/s", |point| point.speed),
-        row("first harmonic of the twist", "rad", |point| point.swing),
+        row("twist", "rad", |point| point.swing),
     ]
 }
 
@@ -157,7 +157,7 @@ fn checked(
     };
     let balanced = report.resonance.is_some();
     LevelRow {
-        what: if point.predicted_stable { "response" } else { "unstable response" }.to_owned(),
+        what: if point.predicted_stable { "twist" } else { "unstable twist" }.to_owned(),
         at: Some(point.frequency),
         unit: "rad".to_owned(),
         closed_form: match balanced {
@@ -231,8 +231,8 @@ fn cusps(plane: &FoldsResult, closed: &[FoldsResult]) -> Vec<LevelRow> {
         };
         let unit = plane.parameter_unit.as_str();
         [
-            row(format!("cusp, {name}"), unit, value, other.map(|other| other.0)),
-            row(format!("cusp of {name}, speed"), "rad/s", speed, other.map(|other| other.1)),
+            row(format!("cusp: {name}"), unit, value, other.map(|other| other.0)),
+            row(format!("cusp of {name}: speed"), "rad/s", speed, other.map(|other| other.1)),
         ]
     };
     values(plane).into_iter().flat_map(rows).collect()

@@ -439,13 +439,13 @@ pub fn with_every_method(report: &ReportResult) -> ReportResult {
     };
     let peak = &closed.peaks[0];
     let mut levels = vec![
-        level("largest response, speed", "rad/s", peak["frequency"]),
-        level("largest response, first harmonic of the twist", "rad", peak["rho"]),
+        level("peak: speed", "rad/s", peak["frequency"]),
+        level("peak: twist", "rad", peak["rho"]),
     ];
     for (index, fold) in closed.branches.iter().flat_map(|b| &b.special_points).enumerate() {
         if fold.kind == SpecialKind::Fold {
             let speed = fold.value("frequency").unwrap();
-            levels.push(level(&format!("fold {index}, speed"), "rad/s", speed));
+            levels.push(level(&format!("fold {index}: speed"), "rad/s", speed));
         }
     }
     levels.extend(closed.verification.iter().map(|point| LevelRow {
@@ -453,7 +453,7 @@ pub fn with_every_method(report: &ReportResult) -> ReportResult {
         integration: Some(point.integrated),
         closed_form: Some(point.predicted),
         harmonic_balance: Some(point.integrated * (1.0 + 1e-9)),
-        ..level("response", "rad", point.predicted)
+        ..level("twist", "rad", point.predicted)
     }));
     ReportResult {
         resonance: Some(balance),
