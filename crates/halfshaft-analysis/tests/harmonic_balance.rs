@@ -42,7 +42,13 @@ fn value(point: &SpecialPoint, name: &str) -> f64 {
 }
 
 #[track_caller]
-fn assert_fold(point: &SpecialPoint, channel: &str, frequency: f64, first: f64, digits: (f64, f64)) {
+fn assert_fold(
+    point: &SpecialPoint,
+    channel: &str,
+    frequency: f64,
+    first: f64,
+    digits: (f64, f64),
+) {
     assert_close(value(point, "frequency"), frequency, digits.0);
     assert_close(value(point, &format!("{channel}.harmonic1")), first, digits.1);
 }
@@ -80,13 +86,14 @@ fn folds_stand_still_whatever_the_tolerance() {
 /// The largest first harmonic of a channel along a branch, by a parabola through three samples.
 fn peak(result: &ResonanceResult, channel: &str) -> (f64, f64) {
     let branch = &result.branches[0];
-    let (speeds, firsts) = (branch.values("frequency"), branch.values(&format!("{channel}.harmonic1")));
-    let top = (1..firsts.len() - 1).max_by(|a, b| firsts[*a].total_cmp(&firsts[*b])).expect("samples");
+    let (speeds, firsts) =
+        (branch.values("frequency"), branch.values(&format!("{channel}.harmonic1")));
+    let top =
+        (1..firsts.len() - 1).max_by(|a, b| firsts[*a].total_cmp(&firsts[*b])).expect("samples");
     let [y0, y1, y2] = [firsts[top - 1], firsts[top], firsts[top + 1]];
     // Parametrised by the number of the sample, unevenly spaced: weights by chord lengths.
-    let chord = |a: usize, b: usize| {
-        ((speeds[a] - speeds[b]) / 0.3).hypot((firsts[a] - firsts[b]) / 3.0)
-    };
+    let chord =
+        |a: usize, b: usize| ((speeds[a] - speeds[b]) / 0.3).hypot((firsts[a] - firsts[b]) / 3.0);
     let (s0, s2) = (-chord(top, top - 1), chord(top, top + 1));
     let (d0, d2) = ((y0 - y1) / s0, (y2 - y1) / s2);
     let bend = (d2 - d0) / (s2 - s0);
@@ -113,7 +120,8 @@ fn peaks_of_the_duffing_oscillators() {
 
 #[test]
 fn folds_converge_with_the_harmonics_as_tabulated() {
-    let upper = [(1, 1.267_536_959_5), (3, 1.269_600_032_1), (5, 1.269_601_954_4), (7, 1.269_601_955_5)];
+    let upper =
+        [(1, 1.267_536_959_5), (3, 1.269_600_032_1), (5, 1.269_601_954_4), (7, 1.269_601_955_5)];
     let lower = [(1, 1.115_585_927_2), (3, 1.115_700_246_9), (5, 1.115_700_251_8)];
     for (count, expected) in upper {
         let result = over(&lines::d1(), (0.9, 1.6), &harmonics(count));

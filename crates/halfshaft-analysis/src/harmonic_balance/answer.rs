@@ -5,6 +5,7 @@ use std::rc::Rc;
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, ResonanceQuestion};
+use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Branch, Column, Effort, Header, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
@@ -18,9 +19,10 @@ use super::jumps::jumps;
 use super::line::Line;
 use super::problem::Axis;
 use super::range::default_range;
-use super::seeds::{Seed, over_drive};
+use super::seeds::{Seed, drive_curve};
 use super::stability::Stability;
 use super::system::{HarmonicSystem, Place};
+use super::tips::tips;
 use super::tracer::{BranchEnd, Counted, LONGEST, MISS, Sample, TraceSettings, length};
 use crate::equilibrium;
 use crate::error::AnalysisError;
@@ -87,9 +89,11 @@ impl Setting {
         self.orders().last().copied().unwrap_or(1).max(1)
     }
 
-    /// Seeds at the ends of the range and between them, with their speed and where they come from.
+    /// Seeds at the ends of the range and between them, and at the tips of resonances, with their
+    /// speed and where they come from.
     pub(super) fn seeds(
         &self,
+        harmonics: Option<usize>,
         observer: &dyn Observer,
         counted: &mut Counted,
     ) -> Vec<(Seed, f64, String)> {
@@ -98,14 +102,21 @@ impl Setting {
         let inner = (1..=INNER_SEEDS).map(|k| (at(k), format!("a response at {:.6} rad/s", at(k))));
         let ends =
             [(low, "low end of the range".to_owned()), (high, "high end of the range".to_owned())];
+        let (highest, orders) = (self.excited(), self.orders());
+        let set = if self.odd { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) };
         let mut seeds = Vec::new();
+        let mut curves = Vec::new();
         for (frequency, origin) in ends.into_iter().chain(inner) {
             let frequency = if frequency == 0.0 { 1e-3 * high } else { frequency };
-            let (line, highest) = (&self.line, self.excited());
-            let found = over_drive(
-                line, &self.rest, self.base, self.odd, highest, frequency, observer, counted,
+            let curve = drive_curve(
+                &self.line, &self.rest, self.base, &set, &orders, frequency, observer, counted,
             );
-            seeds.extend(found.into_iter().map(|seed| (seed, frequency, origin.clone())));
+            let found = curve.seeds.iter().cloned();
+            seeds.extend(found.map(|seed| (seed, frequency, origin.clone())));
+            curves.push(curve);
+        }
+        for (seed, frequency) in tips(self, curves, harmonics, observer, counted) {
+            seeds.push((seed, frequency, format!("a resonance at {frequency:.6} rad/s")));
         }
         seeds
     }
@@ -154,7 +165,7 @@ pub(crate) fn solve(
     }
     let settings = trace_settings(&setting, question);
     let mut counted = Counted::default();
-    let seeds = setting.seeds(observer, &mut counted);
+    let seeds = setting.seeds(question.harmonics, observer, &mut counted);
     let job = Job {
         line: &setting.line,
         axis: Axis::Frequency,

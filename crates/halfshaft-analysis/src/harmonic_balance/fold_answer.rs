@@ -188,7 +188,7 @@ impl Plane<'_, '_> {
             Setting::new(Rc::clone(&equations), Some(self.window), self.question.mode)?;
         setting.odd = shape.odd;
         setting.line = Line::flagged(equations, &shape.flags);
-        let seeds = setting.seeds(observer, counted);
+        let seeds = setting.seeds(self.question.harmonics, observer, counted);
         let job = Job {
             line: &setting.line,
             axis: Axis::Frequency,

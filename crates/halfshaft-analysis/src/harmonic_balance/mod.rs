@@ -10,11 +10,12 @@
 //! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
-//! | `seeds`, `branches`, `branching` | all branches, detached ones and those that branch off included |
+//! | `seeds`, `tips`, `branches`, `branching` | all branches, detached ones and those that branch off included |
 //! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
 //! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
+//! | `layers` | single layers, for benches |
 
 mod answer;
 mod backbone;
@@ -28,6 +29,7 @@ mod fold_trace;
 mod grazing;
 mod hill;
 mod jumps;
+pub mod layers;
 mod line;
 mod lines;
 mod monodromy;
@@ -46,6 +48,7 @@ mod switching;
 mod system;
 #[cfg(test)]
 mod tests;
+mod tips;
 mod tracer;
 mod verify;
 

@@ -60,6 +60,16 @@ struct Segment<'s> {
 }
 
 impl Tracer<'_, '_> {
+    /// The response of the branch in the plane across the chord of two samples at a part of it.
+    pub(super) fn on_segment(
+        &mut self,
+        (from, to): (&Sample, &Sample),
+        part: f64,
+        set: &HarmonicSet,
+    ) -> Result<Sample, Failure> {
+        self.between(&Segment { from, to }, part, set)
+    }
+
     /// The response at a part (0 to 1) of the way between two samples, over a set of harmonics.
     fn between(
         &mut self,
