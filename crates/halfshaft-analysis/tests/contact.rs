@@ -59,16 +59,54 @@ fn look() {
     println!("{:?}", result.header.warnings);
     for branch in &result.branches {
         let f = branch.values("frequency");
-        println!("BRANCH periods {} {} closed {} ends {} from {}", branch.periods, f.len(), branch.closed, branch.ends, branch.origin);
-        let (h, t, a, s, l) = (branch.values("harmonics"), branch.values("truncation"), branch.values("stop.twist.amplitude"), branch.values("unstable_dimension"), branch.values("largest_multiplier"));
+        println!(
+            "BRANCH periods {} {} closed {} ends {} from {}",
+            branch.periods,
+            f.len(),
+            branch.closed,
+            branch.ends,
+            branch.origin
+        );
+        let (h, t, a, s, l) = (
+            branch.values("harmonics"),
+            branch.values("truncation"),
+            branch.values("stop.twist.amplitude"),
+            branch.values("unstable_dimension"),
+            branch.values("largest_multiplier"),
+        );
         for k in 0..f.len() {
-            if k % 1 == 0 { println!("{:.10} {:.6} H {} trunc {:.1e} u {} {:.5}", f[k], a[k], h[k], t[k], s[k], l[k]); }
+            if k % 1 == 0 {
+                println!(
+                    "{:.10} {:.6} H {} trunc {:.1e} u {} {:.5}",
+                    f[k], a[k], h[k], t[k], s[k], l[k]
+                );
+            }
         }
         for p in &branch.special_points {
-            println!("  {:?} {:?} {:.12} amp {:?} {:?} {:?} {:?}", p.kind, p.status, p.value("frequency").unwrap_or(f64::NAN), p.value("stop.twist.amplitude"), p.value("precision"), p.unstable_dimension_change, p.note);
+            println!(
+                "  {:?} {:?} {:.12} amp {:?} {:?} {:?} {:?}",
+                p.kind,
+                p.status,
+                p.value("frequency").unwrap_or(f64::NAN),
+                p.value("stop.twist.amplitude"),
+                p.value("precision"),
+                p.unstable_dimension_change,
+                p.note
+            );
         }
     }
     for v in &result.verification {
-        println!("V {:.8} pred {:.9} int {:.9} rel {:.1e} stable {} {} mult {:?} {} res {:.1e}", v.frequency, v.predicted, v.integrated, v.relative_difference, v.predicted_stable, v.integrated_stable, v.predicted_multiplier, v.largest_multiplier, v.orbit_residual);
+        println!(
+            "V {:.8} pred {:.9} int {:.9} rel {:.1e} stable {} {} mult {:?} {} res {:.1e}",
+            v.frequency,
+            v.predicted,
+            v.integrated,
+            v.relative_difference,
+            v.predicted_stable,
+            v.integrated_stable,
+            v.predicted_multiplier,
+            v.largest_multiplier,
+            v.orbit_residual
+        );
     }
 }

@@ -30,6 +30,7 @@ use crate::header::header;
 use crate::verification::common_order;
 
 /// A line about to be asked for its periodic responses.
+#[derive(Debug)]
 pub(crate) struct Setting {
     pub(crate) line: Line,
     /// Twists at rest.

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
+use halfshaft_model::question::StabilityMethod;
 use halfshaft_numerics::observer::Silent;
 
 use super::answer::Setting;
@@ -52,7 +53,7 @@ impl Layers {
         let line = self.setting.line.clone();
         let system = HarmonicSystem::new(line, self.sample.set.clone(), self.base);
         let problem = Problem::new(system, Axis::Frequency, self.place());
-        let judge = Judge::new(&problem.system);
+        let judge = Judge::new(&problem.system, StabilityMethod::Monodromy);
         let (u, place) = (self.sample.u.clone(), self.place());
         let moved = u.iter().enumerate();
         let moved = moved.map(|(k, u)| u + 1e-3 * length(&self.sample.u) * (k as f64).sin());
@@ -142,5 +143,6 @@ fn job(setting: &Setting, tolerance: f64) -> Job<'_, 'static> {
         observer: &Silent,
         doublings: false,
         judged: false,
+        stability: StabilityMethod::Monodromy,
     }
 }

@@ -94,7 +94,11 @@ impl<'e> Shooter<'e> {
     }
 
     /// The state after the period or half of it, and how it depends on state and speed.
-    fn pass(&mut self, state: &[f64], frequency: f64) -> Result<(Vec<f64>, Matrix, Vec<f64>), Lost> {
+    fn pass(
+        &mut self,
+        state: &[f64],
+        frequency: f64,
+    ) -> Result<(Vec<f64>, Matrix, Vec<f64>), Lost> {
         let end = self.period(frequency) * if self.mirrored { 0.5 } else { 1.0 };
         let arrived = self.flow.run(state, frequency, end, true, |_| {})?;
         let Some((matrix, mut by_frequency)) = arrived.variation else {
@@ -195,11 +199,7 @@ impl<'e> Shooter<'e> {
     }
 
     /// Follows an orbit through its whole period.
-    pub(crate) fn watch(
-        &mut self,
-        orbit: &Orbit,
-        see: impl FnMut(&Step<'_>),
-    ) -> Result<(), Lost> {
+    pub(crate) fn watch(&mut self, orbit: &Orbit, see: impl FnMut(&Step<'_>)) -> Result<(), Lost> {
         let end = self.period(orbit.frequency);
         self.flow.run(&orbit.state, orbit.frequency, end, false, see)?;
         Ok(())

@@ -55,10 +55,7 @@ fn pair(what: &str, [closed, first, balance]: [Option<Point>; 3]) -> Vec<LevelRo
         harmonic_balance: balance.map(of),
         ..LevelRow::default()
     };
-    vec![
-        row("speed", "rad/s", |point| point.speed),
-        row("twist", "rad", |point| point.swing),
-    ]
+    vec![row("speed", "rad/s", |point| point.speed), row("twist", "rad", |point| point.swing)]
 }
 
 /// Branches that a slow sweep shows.
