@@ -101,7 +101,7 @@ def chain(count):
 
 
 def one_nonlinear(count):
-    """A uniform linear line of `count` inertias on one hardening shaft to ground.
+    """A uniform linear line of `count` inertias on one soft, hardening shaft to ground.
 
     Total inertia, compliance and damping stay as `count` grows, and with them the response: only
     the linear rest gets finer, so that the time per sample tells what that rest costs.
@@ -109,7 +109,7 @@ def one_nonlinear(count):
     finer = count / 10
     rest = count - 1
     return Line(
-        (1.0 / finer,) * count, (1000.0,) + (1000.0 * finer,) * rest, (5000.0,) + (0.0,) * rest,
+        (1.0 / finer,) * count, (100.0,) + (1000.0 * finer,) * rest, (5.0,) + (0.0,) * rest,
         (0.5,) + (0.5 * finer,) * rest, (0.05 / finer,) * count, (0.0,) * rest + (1.0,), 5.0)
 
 
@@ -165,8 +165,13 @@ FIFTY = Case(
     pyharm=(PyharmSettings((1, 3, 5), 32, 1.0),), points=80)
 
 CURVES = (DUFFING, HARDENING_CASE, FOLDS, ABSORBER_CASE, TEN, FIFTY)
-SCALING = (10, 30, 100, 300, 1000)
-SCALING_RANGE = (4.3, 5.3)
+# Folds of the line with one nonlinear shaft, and the fundamental of the first inertia's angle.
+SCALING = {
+    10: (Reference("fold", 2.89911665590, 1.822900095), Reference("fold", 2.87209839536, 1.083293452)),
+    30: (Reference("fold", 2.86216408336, 1.825494561), Reference("fold", 2.83683437962, 1.093162998)),
+    100: (Reference("fold", 2.84913391247, 1.825694499), Reference("fold", 2.82443784809, 1.096669120)),
+}
+SCALING_RANGE = (2.5, 3.5)
 
 
 def first_harmonic(line, frequency):

@@ -102,21 +102,28 @@ def scaling(half, repeats, folder):
     import cases
     import halfshaft
     import models
-    from table import plain
+    from table import judge, plain
 
     low, high = cases.SCALING_RANGE
     lines = []
-    for count in cases.SCALING:
-        case = dataclasses.replace(cases.TEN, line=cases.one_nonlinear(count), low=low, high=high)
+    for count, references in cases.SCALING.items():
+        case = dataclasses.replace(cases.TEN, line=cases.one_nonlinear(count), low=low, high=high,
+                                   channel="inertia 1.angle", references=references)
         name, flags = half.settings(case)[0]
         side = halfshaft.Side(half, case, name, flags, models.one_nonlinear(count, folder))
-        for _ in range(repeats if count < 300 else min(repeats, 3)):
-            side.once()
-        row = side.row()
-        folds = ", ".join(f"{p.frequency:.8f}" for p in row.found if p.kind == "fold")
+        try:
+            for turn in range(repeats):
+                if turn == 0 or sum(side.whole) < 10_000:
+                    side.once()
+        except Failure as failure:
+            lines.append((str(count), "-", "-", "-", "-", "-", "-", "-", str(failure).splitlines()[-1]))
+            break
+        row = judge(side.row(), references)
         lines.append((str(count), str(row.samples), f"{row.whole:.1f}", f"{row.inside:.2f}",
-                      f"{1e3 * row.per_sample:.1f}", f"{1e3 * row.per_sample / count:.3f}", folds))
-    head = ("inertias", "samples", "whole ms", "inside ms", "us/sample", "us/sample/inertia", "folds")
+                      f"{1e3 * row.per_sample:.1f}", f"{1e3 * row.per_sample / count:.3f}",
+                      f"{row.frequency_error or 0:.1e}", f"{row.amplitude_error or 0:.1e}", row.remark))
+    head = ("inertias", "samples", "whole ms", "inside ms", "us/sample", "us/sample/inertia",
+            "frequency error", "amplitude error", "remark")
     return f"## One nonlinear shaft in a line of n inertias (halfshaft only)\n\n{plain(head, lines)}"
 
 

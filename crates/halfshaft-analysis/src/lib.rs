@@ -12,6 +12,7 @@
 //! | `time_response` | `simulate` | order 8, dense output, energy balance |
 //! | `shock` | `shock` | the same, single equations, multiple scales |
 //! | `averaging` | `resonance`, `folds` | closed form of one mode |
+//! | `shooting` | orbits by the motion itself | Taylor series between the kinks of laws |
 //! | `verification` | what the full equations say | shooting |
 
 mod averaging;
@@ -24,6 +25,7 @@ mod header;
 mod modal;
 mod polynomials_only;
 mod shock;
+mod shooting;
 mod time_response;
 mod verification;
 

@@ -131,7 +131,14 @@ fn galerkin(line: &EquationsOfMotion, index: usize, mean: f64, a: f64, nu: f64) 
     let connection = &line.connections[index];
     // Exact for polynomials of degree seven; kinks and steep friction take more.
     let smooth = connection.law.polynomial().is_some() && connection.friction.is_none();
-    let count = if smooth { 32 } else { 20_000 };
+    let jumps = !connection.damps_in_gap;
+    let count = if smooth {
+        32
+    } else if jumps {
+        200_000
+    } else {
+        20_000
+    };
     let mut sums = [0.0; 3];
     for k in 0..count {
         let phi = std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(count);

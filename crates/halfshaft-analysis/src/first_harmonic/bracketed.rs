@@ -7,7 +7,7 @@
 use halfshaft_numerics::Complex;
 
 use super::problem::{Point, Problem};
-use super::shaft_law::Balanced;
+use super::shaft_law::{Balanced, loss};
 use super::sheets::{Cell, Sheets};
 
 /// Cells are halved down to this part of their amplitude.
@@ -58,7 +58,8 @@ fn bounds(problem: &Problem, point: &Point<Complex>) -> Option<(f64, f64)> {
         // slope is looked up about the means at rest and at this amplitude.
         let steepest = steepest(law, least);
         let contact = law.contact.as_ref().map_or(0.0, |(damping, _)| nu * damping * least);
-        let loss = law.loss(nu * least).torque + contact;
+        let friction = law.friction.map_or(0.0, |friction| loss(&friction, nu * least).torque);
+        let loss = friction + contact;
         let reach = alpha.modulus() * least + beta.modulus() * (steepest * least + loss);
         if reach < target {
             break;
@@ -108,15 +109,14 @@ impl Search<'_> {
     fn discs(&self, cell: &Cell) -> Discs {
         let Point { nu, beta, .. } = *self.point;
         let law = &self.problem.law;
-        let whole = self.problem.whole(self.point, cell.middle, &cell.at);
-        let slope = self.problem.whole_slope(self.point, cell.middle, &cell.at);
+        let (whole, slope) = self.problem.whole_and_slope(self.point, cell.middle, &cell.at);
         let mut slope_radius = cell.slope_radius;
         if let Some((damping, _)) = &law.contact {
             slope_radius += nu * damping * cell.contact_radius;
         }
-        if law.friction.is_some() {
+        if let Some(friction) = &law.friction {
             // The friction rises more and more slowly with the rate.
-            let first = |a: f64| law.loss(nu * a).first;
+            let first = |a: f64| loss(friction, nu * a).first;
             let middle = first(cell.middle);
             let away = (first(cell.from) - middle).abs().max((first(cell.to) - middle).abs());
             slope_radius += nu * away;
@@ -127,6 +127,17 @@ impl Search<'_> {
     }
 
     fn may_hold(&self, cell: &Cell) -> bool {
+        if let Some(friction) = &self.problem.law.friction {
+            // Friction is at most 4/π of its torque; what that leaves out needs no closer look.
+            let Point { alpha, beta, .. } = *self.point;
+            let bare = (alpha.scaled(cell.middle) + beta.scaled(cell.at.force)).modulus();
+            let steepest = cell.at.slope.abs() + cell.slope_radius;
+            let slope = (alpha.modulus() + beta.modulus() * steepest) * cell.radius();
+            let most = friction.torque_nm * (4.0 / std::f64::consts::PI) * beta.modulus();
+            if self.problem.law.contact.is_none() && (bare - self.target).abs() > slope + most {
+                return false;
+            }
+        }
         let discs = self.discs(cell);
         (discs.whole.modulus() - self.target).abs() <= discs.whole_radius * (1.0 + 1e-9)
     }
@@ -172,8 +183,7 @@ impl Search<'_> {
         let mut amplitude = cell.middle;
         let mut at = law.balanced(amplitude, cell.at.mean)?;
         for _ in 0..80 {
-            let whole = self.problem.whole(self.point, amplitude, &at);
-            let slope = self.problem.whole_slope(self.point, amplitude, &at);
+            let (whole, slope) = self.problem.whole_and_slope(self.point, amplitude, &at);
             let value = whole.modulus() - self.target;
             if (value < 0.0) == rising {
                 low = amplitude

@@ -3,16 +3,19 @@
 //! Any law is polynomials joined end to end. Where the tangent stiffness `T'` is smooth,
 //! `∂M_k/∂m = ⟨T'' cos^k⟩` and `∂M_k/∂a = ⟨T'' cos^(k+1)⟩` are bounded by the greatest `|T''|` within
 //! reach of the swing. Where it jumps by `Δ` at a twist `b`, `M_k` holds `Δ ⟨H(cos φ - c) cos^k φ⟩`
-//! with `c = (b - m)/a`, whose range over an interval of `c` is known exactly. Both bounds shrink
-//! with the box, so that halving ends.
+//! with `c = (b - m)/a`, whose range over an interval of `c` is known exactly. For a law of one
+//! polynomial the first derivatives are those at the centre, and the third derivative of the torque
+//! bounds the rest. All bounds shrink with the box, so that halving ends.
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use halfshaft_dynamics::TorqueLaw;
 use halfshaft_numerics::polynomial::Polynomial;
 
-/// `⟨|cos|^k⟩` for `k` from 0 to 3.
-const COSINES: [f64; 4] = [1.0, FRAC_2_PI, 0.5, 4.0 / (3.0 * PI)];
+use super::shaft_law::curvature_moments;
+
+/// `⟨|cos|^k⟩` for `k` from 0 to 4.
+const COSINES: [f64; 5] = [1.0, FRAC_2_PI, 0.5, 4.0 / (3.0 * PI), 3.0 / 8.0];
 
 /// A stretch of the law.
 #[derive(Clone, Debug)]
@@ -22,6 +25,8 @@ struct Stretch {
     origin: f64,
     /// `T''` over `x - origin`.
     curvature: Polynomial,
+    /// The third derivative of the torque over `x - origin`.
+    third: Polynomial,
 }
 
 /// A law as far as bounds need it.
@@ -55,6 +60,7 @@ impl LawBounds {
             to: piece.to,
             origin: piece.origin,
             curvature: piece.torque.derivative().derivative(),
+            third: piece.torque.derivative().derivative().derivative(),
         });
         let mut jumps = Vec::new();
         for pair in list.windows(2) {
@@ -86,6 +92,9 @@ impl LawBounds {
 
     /// How far `M_0`, `M_1`, `M_2` over the region are from those at its centre.
     pub(super) fn moment_radii(&self, region: &Region) -> [f64; 3] {
+        if let [only] = self.stretches.as_slice() {
+            return of_polynomial(only, region);
+        }
         let curvature = self.largest_curvature(region);
         let mut radii = [0.0; 3];
         for (k, radius) in radii.iter_mut().enumerate() {
@@ -101,19 +110,44 @@ impl LawBounds {
         radii
     }
 
-    /// Greatest `|T''|` of smooth parts within reach of the swings of the region.
+    /// Greatest `|T''|` in smooth parts within reach of the swings of the region.
     fn largest_curvature(&self, region: &Region) -> f64 {
-        let reach = region.mean_radius + region.amplitude + region.amplitude_radius;
-        let (low, high) = (region.mean - reach, region.mean + reach);
-        let bound = |stretch: &Stretch| {
-            let from = (low.max(stretch.from) - stretch.origin).abs();
-            let size = from.max((high.min(stretch.to) - stretch.origin).abs());
-            let terms = stretch.curvature.coefficients().iter().rev();
-            terms.fold(0.0, |sum, c| sum * size + c.abs())
-        };
+        let (low, high) = region.reach();
         let within = self.stretches.iter().filter(|s| s.to >= low && s.from <= high);
-        within.map(bound).fold(0.0, f64::max)
+        within.map(|stretch| stretch.bound(&stretch.curvature, (low, high))).fold(0.0, f64::max)
     }
+}
+
+impl Region {
+    /// Least and greatest twist of its swings.
+    fn reach(&self) -> (f64, f64) {
+        let reach = self.mean_radius + self.amplitude + self.amplitude_radius;
+        (self.mean - reach, self.mean + reach)
+    }
+}
+
+impl Stretch {
+    /// A bound on the size of a polynomial over what lies of an interval in the stretch.
+    fn bound(&self, polynomial: &Polynomial, (low, high): (f64, f64)) -> f64 {
+        let from = (low.max(self.from) - self.origin).abs();
+        let size = from.max((high.min(self.to) - self.origin).abs());
+        let terms = polynomial.coefficients().iter().rev();
+        terms.fold(0.0, |sum, c| sum * size + c.abs())
+    }
+}
+
+/// Radii of the moments of a law of one polynomial: linear terms at the centre, then the bound.
+fn of_polynomial(stretch: &Stretch, region: &Region) -> [f64; 3] {
+    let (m, a) = (region.mean_radius, region.amplitude_radius);
+    let third = stretch.bound(&stretch.third, region.reach());
+    let first =
+        curvature_moments(&stretch.curvature, region.mean - stretch.origin, region.amplitude);
+    let mut radii = [0.0; 3];
+    for (k, radius) in radii.iter_mut().enumerate() {
+        let square = COSINES[k] * m * m + 2.0 * COSINES[k + 1] * m * a + COSINES[k + 2] * a * a;
+        *radius = first[k].abs() * m + first[k + 1].abs() * a + 0.5 * third * square;
+    }
+    radii
 }
 
 /// Whether a slope is nowhere below zero on an interval.

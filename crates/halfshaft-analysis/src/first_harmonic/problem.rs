@@ -103,7 +103,7 @@ impl Problem {
 
     /// The residual at a frequency and an amplitude with its harmonic.
     pub(super) fn residual(&self, point: &Point<Jet>, a: f64, at: &Balanced) -> Residual {
-        residual(point, a, at, &self.law.resistance(point.nu, a, at))
+        residual(point, a, at, &self.law.resistance_with_bend(point.nu, a, at))
     }
 
     /// The complex twist at a root.
@@ -121,10 +121,18 @@ impl Problem {
         point.alpha.scaled(a) + point.beta * Complex::new(at.force, resistance)
     }
 
-    /// Derivative of [`Problem::whole`] by the amplitude.
-    pub(super) fn whole_slope(&self, point: &Point<Complex>, a: f64, at: &Balanced) -> Complex {
-        let resistance = self.law.resistance(point.nu, a, at).by_a;
-        point.alpha + point.beta * Complex::new(at.slope, resistance)
+    /// The same and its derivative by the amplitude.
+    pub(super) fn whole_and_slope(
+        &self,
+        point: &Point<Complex>,
+        a: f64,
+        at: &Balanced,
+    ) -> (Complex, Complex) {
+        let resistance = self.law.resistance(point.nu, a, at);
+        (
+            point.alpha.scaled(a) + point.beta * Complex::new(at.force, resistance.torque),
+            point.alpha + point.beta * Complex::new(at.slope, resistance.by_a),
+        )
     }
 
     /// Whether anything takes energy out of the motion of the shaft at a frequency.

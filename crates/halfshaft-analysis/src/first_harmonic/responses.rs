@@ -115,8 +115,7 @@ pub(super) fn response(
     amplitude: f64,
     at: &Balanced,
 ) -> Response {
-    let whole = problem.whole(point, amplitude, at);
-    let slope = problem.whole_slope(point, amplitude, at);
+    let (whole, slope) = problem.whole_and_slope(point, amplitude, at);
     Response {
         nu: point.nu,
         twist: problem.twist(point, amplitude, at),

@@ -14,6 +14,7 @@
 
 use halfshaft_dynamics::laws::{ClearanceLaw, OneSidedContact, PolynomialLaw};
 use halfshaft_dynamics::{Connection, Friction, TorqueLaw};
+use halfshaft_numerics::polynomial::Polynomial;
 
 use super::rest::Statics;
 
@@ -70,13 +71,11 @@ pub(super) struct Resistance {
     pub(super) by_nu_nu: f64,
 }
 
-/// Torque of friction in phase with the rate, `Ψ(V)` over the amplitude `V` of the rate, with two
-/// derivatives.
+/// Torque of friction in phase with the rate over the amplitude of the rate, with its derivative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Loss {
     pub(super) torque: f64,
     pub(super) first: f64,
-    pub(super) second: f64,
 }
 
 /// Most Newton steps for the mean.
@@ -174,7 +173,8 @@ impl ShaftLaw {
     /// `d²F/da²`: in closed form for polynomials, else by differences of sixth order of the slope.
     fn bend(&self, amplitude: f64, at: &Balanced) -> f64 {
         if let Some(polynomial) = self.law.polynomial() {
-            let [k0, k1, k2, k3] = curvature_moments(&polynomial.polynomial(), at.mean, amplitude);
+            let curvature = polynomial.polynomial().derivative().derivative();
+            let [k0, k1, k2, k3] = curvature_moments(&curvature, at.mean, amplitude);
             let [_, m1, _] = self.swing(at.mean, amplitude).moments;
             if self.symmetric {
                 return 2.0 * k3;
@@ -202,27 +202,38 @@ impl ShaftLaw {
         (45.0 * odd(1.0) - 9.0 * odd(2.0) + odd(3.0)) / (60.0 * step)
     }
 
-    /// What resists the rate of twist, dampers that act at every twist left out.
+    /// What resists the rate of twist, dampers that act at every twist left out; with first
+    /// derivatives only.
     pub(super) fn resistance(&self, nu: f64, a: f64, at: &Balanced) -> Resistance {
         let mut sum = Resistance::default();
-        if self.friction.is_some() {
-            let Loss { torque, first, second } = self.loss(nu * a);
-            sum = Resistance {
-                torque,
-                by_a: nu * first,
-                by_nu: a * first,
-                by_a_a: nu * nu * second,
-                by_a_nu: first + nu * a * second,
-                by_nu_nu: a * a * second,
-            };
+        if let Some(friction) = &self.friction {
+            let Loss { torque, first } = loss(friction, nu * a);
+            sum = Resistance { torque, by_a: nu * first, by_nu: a * first, ..sum };
         }
         if let Some((damping, _)) = &self.contact {
-            let [force, slope, bend] = at.contact.map(|g| damping * g);
-            sum.torque += nu * force;
-            sum.by_a += nu * slope;
-            sum.by_nu += force;
-            sum.by_a_a += nu * bend;
-            sum.by_a_nu += slope;
+            sum.torque += nu * damping * at.contact[0];
+            sum.by_a += nu * damping * at.contact[1];
+            sum.by_nu += damping * at.contact[0];
+        }
+        sum
+    }
+
+    /// The same with second derivatives.
+    pub(super) fn resistance_with_bend(&self, nu: f64, a: f64, at: &Balanced) -> Resistance {
+        let mut sum = self.resistance(nu, a, at);
+        if let Some(friction) = &self.friction {
+            let rate = nu * a;
+            let step = 1e-3 * rate.abs().max(1e-3 * friction.speed_rad_s);
+            let there = |k: f64| loss(friction, rate + k * step).first;
+            let odd = |k: f64| there(k) - there(-k);
+            let second = (45.0 * odd(1.0) - 9.0 * odd(2.0) + odd(3.0)) / (60.0 * step);
+            sum.by_a_a = nu * nu * second;
+            sum.by_a_nu = loss(friction, rate).first + nu * a * second;
+            sum.by_nu_nu = a * a * second;
+        }
+        if let Some((damping, _)) = &self.contact {
+            sum.by_a_a += nu * damping * at.contact[2];
+            sum.by_a_nu += damping * at.contact[1];
         }
         sum
     }
@@ -231,20 +242,12 @@ impl ShaftLaw {
     pub(super) fn is_plain(&self) -> bool {
         self.friction.is_none() && self.contact.is_none()
     }
+}
 
-    /// Friction at an amplitude of the rate.
-    pub(super) fn loss(&self, rate: f64) -> Loss {
-        let Some(friction) = self.friction else { return Loss::default() };
-        let at = |rate: f64| {
-            let of = friction.describing_function(rate);
-            (of.damping * rate, of.damping + rate * of.by_amplitude)
-        };
-        let (torque, first) = at(rate);
-        let step = 1e-3 * rate.abs().max(1e-3 * friction.speed_rad_s);
-        let odd = |k: f64| at(rate + k * step).1 - at(rate - k * step).1;
-        let second = (45.0 * odd(1.0) - 9.0 * odd(2.0) + odd(3.0)) / (60.0 * step);
-        Loss { torque, first, second }
-    }
+/// Friction at an amplitude of the rate.
+pub(super) fn loss(friction: &Friction, rate: f64) -> Loss {
+    let of = friction.describing_function(rate);
+    Loss { torque: of.damping * rate, first: of.damping + rate * of.by_amplitude }
 }
 
 /// The contact of a law with free play as a law of stiffness one.
@@ -272,13 +275,9 @@ pub(super) fn contact_moments(law: &TorqueLaw, mean: f64, amplitude: f64) -> [f6
 const COSINES: [f64; 11] =
     [1.0, 0.0, 1.0 / 2.0, 0.0, 3.0 / 8.0, 0.0, 5.0 / 16.0, 0.0, 35.0 / 128.0, 0.0, 63.0 / 256.0];
 
-/// `⟨T'' cos^k φ⟩` for `k` from 0 to 3 of a polynomial of degree seven at most.
-fn curvature_moments(
-    law: &halfshaft_numerics::polynomial::Polynomial,
-    mean: f64,
-    amplitude: f64,
-) -> [f64; 4] {
-    let about = law.derivative().derivative().shifted(mean);
+/// `⟨T'' cos^k φ⟩` for `k` from 0 to 3, with `T''` a polynomial of degree five at most.
+pub(super) fn curvature_moments(curvature: &Polynomial, mean: f64, amplitude: f64) -> [f64; 4] {
+    let about = curvature.shifted(mean);
     let mut moments = [0.0; 4];
     let mut power = 1.0;
     for (n, coefficient) in about.coefficients().iter().enumerate() {

@@ -136,7 +136,7 @@ impl Sheets {
         let at = self.law.balanced(middle, mean)?;
         let mean = at.mean;
         let [_, m1, m2] = self.law.swing(mean, middle).moments;
-        let mut room = (2.0 * m1.abs() / at.held * radius).max(0.02 * middle);
+        let mut room = (2.0 * m1.abs() / at.held).max(0.5) * radius;
         for _ in 0..5 {
             let region =
                 Region { mean, mean_radius: room, amplitude: middle, amplitude_radius: radius };

@@ -163,6 +163,7 @@ pub(crate) fn solve(
         settings,
         observer,
         doublings: true,
+        stability: question.stability,
         judged: true,
     };
     let mut collected = job.collect(&seeds);

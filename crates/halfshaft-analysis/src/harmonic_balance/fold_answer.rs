@@ -7,7 +7,7 @@
 use std::rc::Rc;
 
 use halfshaft_dynamics::EquationsOfMotion;
-use halfshaft_model::question::{FoldsQuestion, Question};
+use halfshaft_model::question::{FoldsQuestion, Question, StabilityMethod};
 use halfshaft_model::{ChangeError, Driveline};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::{Observer, Part};
@@ -197,6 +197,7 @@ impl Plane<'_, '_> {
             settings: setting.trace_settings(self.question.tolerance, self.question.harmonics),
             observer,
             doublings: false,
+            stability: StabilityMethod::default(),
             judged: false,
         };
         let collected = job.collect(&seeds);

@@ -7,9 +7,10 @@
 //! | `system` | residual and Jacobian (alternating frequency-time) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer` | pseudo-arclength continuation |
-//! | `series`, `switching`, `monodromy`, `stability` | Floquet multipliers |
-//! | `special` | folds, branch points, period doublings, Neimark-Sacker points |
-//! | `seeds`, `branches` | all branches, detached ones included |
+//! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
+//! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
+//! | `orbits`, `refine` | special points of lines with kinks, by shooting |
+//! | `seeds`, `branches`, `branching` | all branches, detached ones and those that branch off included |
 //! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
@@ -18,18 +19,24 @@
 mod answer;
 mod backbone;
 mod branches;
+mod branching;
 mod channels;
 mod condensed;
 mod fold_answer;
 mod fold_system;
 mod fold_trace;
+mod grazing;
+mod hill;
 mod jumps;
 mod line;
 mod lines;
 mod monodromy;
+mod orbits;
+mod panels;
 mod parameter_answer;
 mod problem;
 mod range;
+mod refine;
 mod seeds;
 mod series;
 mod skeleton;
@@ -37,6 +44,8 @@ mod special;
 mod stability;
 mod switching;
 mod system;
+#[cfg(test)]
+mod tests;
 mod tracer;
 mod verify;
 

@@ -81,6 +81,7 @@ pub(super) fn solve(
         settings: trace_settings(&setting, question),
         observer,
         doublings: true,
+        stability: question.stability,
         judged: true,
     };
     let mut collected = job.collect(&seeds);

@@ -11,6 +11,7 @@ use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_results::SpecialKind;
 
+use super::grazing::{Touch, touches};
 use super::problem::{Axis, Condition, Failure, Metric};
 use super::stability::{Crossing, Judge, Stability, counted, crossings, pair_angle, test};
 use super::tracer::{MOST_HARMONICS, Sample, Tracer, refit};
@@ -29,6 +30,8 @@ pub(crate) struct Special {
     /// Change of the unstable dimension.
     pub(crate) change: Option<i32>,
     pub(crate) note: Option<String>,
+    /// What touches, at a grazing contact.
+    pub(crate) touch: Option<Touch>,
 }
 
 /// A place is settled when more harmonics move it by less than this part.
@@ -128,7 +131,7 @@ impl Tracer<'_, '_> {
         let place = self.problem.place_at(sample.p);
         if matches!(self.problem.axis, Axis::Parameter(_)) {
             self.problem.line_at(sample.p)?;
-            *judge = Judge::new(&self.problem.system);
+            *judge = Judge::new(&self.problem.system, judge.method());
         }
         judge.stability(&self.problem.system, &sample.u, place)
     }
@@ -224,6 +227,10 @@ impl Tracer<'_, '_> {
         if self.settings.harmonics.is_some() {
             return Some((sample, 1e-13));
         }
+        if self.shoots() {
+            // Harmonics converge slowly at kinks: shooting takes it from here.
+            return Some((sample, f64::NAN));
+        }
         for round in 0..MOST_ROUNDS {
             let more = 2.max(set.highest() / 4).next_multiple_of(2);
             let next = set.up_to((set.highest() + more).min(MOST_HARMONICS));
@@ -294,6 +301,7 @@ impl Tracer<'_, '_> {
                 located: true,
                 change: None,
                 note: None,
+                touch: None,
             });
         }
         found
@@ -335,7 +343,10 @@ impl Tracer<'_, '_> {
         let change = i32::try_from(behind.unstable).unwrap_or(0)
             - i32::try_from(before.unstable).unwrap_or(0);
         let alone = wanted.len() == 1;
-        let mut specials = Vec::new();
+        let mut specials = self.grazing(judge, after, (from, to));
+        if specials.len() == 1 && wanted.is_empty() {
+            specials[0].change = Some(change);
+        }
         for (kind, what) in wanted {
             let place = self.locate(judge, &what, (from, to));
             if place.is_none()
@@ -357,6 +368,47 @@ impl Tracer<'_, '_> {
                 located,
                 change: alone.then_some(change),
                 note: None,
+                touch: None,
+            });
+        }
+        specials
+    }
+
+    /// Whether special points of these curves are left to shooting: the excitation speed runs over a
+    /// line with kinks.
+    pub(super) fn shoots(&self) -> bool {
+        matches!(self.problem.axis, Axis::Frequency)
+            && self.problem.place.drive == 1.0
+            && self.problem.system.line.has_kinks()
+    }
+
+    /// Where a twist begins or ceases to touch a switching twist between two samples.
+    fn grazing(
+        &mut self,
+        judge: &mut Judge,
+        after: usize,
+        (from, to): (&Sample, &Sample),
+    ) -> Vec<Special> {
+        if matches!(self.problem.axis, Axis::Parameter(_)) {
+            return Vec::new();
+        }
+        let line = self.problem.system.line.clone();
+        let mut specials = Vec::new();
+        for touch in touches(&line, from, to) {
+            let beyond = |sample: &Sample| touch.beyond(&line, sample);
+            let place = self.locate(judge, &Test::Value(&beyond), (from, to));
+            let Some((sample, precision)) = place else { continue };
+            let stability = self.judge(judge, &sample).ok();
+            specials.push(Special {
+                kind: SpecialKind::GrazingContact,
+                after,
+                note: Some(touch.words(&line, &sample)),
+                sample,
+                stability,
+                precision,
+                located: true,
+                change: None,
+                touch: Some(touch),
             });
         }
         specials

@@ -70,9 +70,9 @@ pub(crate) struct TraceSettings {
 }
 
 /// Default of [`TraceSettings::miss`].
-pub(crate) const MISS: f64 = 0.015;
+pub(crate) const MISS: f64 = 0.001;
 /// Default of [`TraceSettings::longest`].
-pub(crate) const LONGEST: f64 = 0.25;
+pub(crate) const LONGEST: f64 = 0.08;
 /// Shortest step, in the metric.
 const SHORTEST: f64 = 1e-9;
 /// Highest order of harmonics that is tried.

@@ -8,5 +8,4 @@
 mod elastic_motion;
 mod orbits;
 
-pub(crate) use elastic_motion::ElasticMotion;
 pub(crate) use orbits::{choose, common_order, periodic};
