@@ -41,7 +41,7 @@ impl Parting {
     fn has(self, order: usize) -> bool {
         match self {
             Self::Doubling => order % 2 == 1,
-            Self::Mirror => order % 2 == 0,
+            Self::Mirror => order.is_multiple_of(2),
             Self::None => true,
         }
     }

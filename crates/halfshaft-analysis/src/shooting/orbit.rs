@@ -19,8 +19,6 @@ pub(crate) struct Orbit {
     pub(crate) by_frequency: Vec<f64>,
     /// Distance by which the orbit failed to close when last tried.
     pub(crate) residual: f64,
-    /// Size of the last correction, relative.
-    pub(crate) correction: f64,
 }
 
 impl Orbit {
@@ -140,7 +138,7 @@ impl<'e> Shooter<'e> {
                 return Err(Lost::NotConverged);
             }
             if correction <= FINAL || stalled {
-                return Ok(Orbit { state, frequency, matrix, by_frequency, residual, correction });
+                return Ok(Orbit { state, frequency, matrix, by_frequency, residual });
             }
             // Newton's method must not throw the speed to nothing.
             let shrink = (0.2 / step[n].abs()).min(1.0);
