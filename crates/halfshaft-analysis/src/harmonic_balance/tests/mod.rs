@@ -59,6 +59,7 @@ fn traced_with(setting: Setting, tolerance: f64, harmonics: Option<usize>) -> Tr
         observer: &Silent,
         doublings: true,
         judged: true,
+        stability: halfshaft_model::question::StabilityMethod::Monodromy,
     };
     let collected = job.collect(&seeds);
     Traced { setting, collected }
