@@ -94,6 +94,9 @@ impl AnalysisError {
             }
             Self::NoSuchEquilibrium { .. } => "`halfshaft static` lists the equilibria",
             Self::NoSuchMode { .. } => "`halfshaft modes` lists the modes",
+            Self::MethodDoesNotFit { method: "averaged", .. } => {
+                "--method harmonic-balance takes any law"
+            }
             Self::MethodDoesNotFit { .. } => "--method full takes any line",
             Self::NoDisturbance => {
                 "give --initial \"half-shaft.twist=1 rad\", or a torque of the model a pulse"

@@ -12,6 +12,7 @@
 //! | `time_response` | `simulate` | order 8, dense output, energy balance |
 //! | `shock` | `shock` | the same, single equations, multiple scales |
 //! | `averaging` | `resonance`, `folds` | closed form of one mode |
+//! | `shooting` | orbits by the motion itself | Taylor series between the kinks of laws |
 //! | `verification` | what the full equations say | shooting |
 
 mod averaging;
@@ -24,6 +25,7 @@ mod header;
 mod modal;
 mod polynomials_only;
 mod shock;
+mod shooting;
 mod time_response;
 mod verification;
 
@@ -33,6 +35,8 @@ use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{Answer, ResponseCount};
 
 pub use error::AnalysisError;
+#[doc(hidden)]
+pub use harmonic_balance::layers;
 
 /// Numbers of periodic responses that coexist, by the first harmonic, at all pairs of excitation
 /// speeds (rad/s) and values of the parameter of a question about folds.

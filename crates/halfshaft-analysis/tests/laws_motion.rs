@@ -100,7 +100,7 @@ impl Exact {
 // line without any gap, -1.22431277 at 0.05 s and so on; those come out with a clearance of zero.)
 #[test]
 fn backlash_follows_the_exact_solution() {
-    let gap = 0.785_398_163_397_448_3;
+    let gap = std::f64::consts::FRAC_PI_4;
     let times = [0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0];
     let linear = [
         -1.22431277,
@@ -251,4 +251,17 @@ fn a_shock_crosses_a_clearance() {
     assert!(twist.minimum < -0.025 && twist.maximum > 0.025, "{twist:?}");
     // It comes back to the flank: 30 N·m on 3000 N·m/rad beyond half the gap.
     assert!((at(&result, "s.twist", 3.0) - 0.035).abs() < 5e-3);
+}
+
+// Source: Newton's law: past its torque of 10 N·m the shaft slips and the rest accelerates the inertia,
+// (12 - 10)/5 rad/s²; slipping is no running away.
+#[test]
+fn a_shaft_without_stiffness_in_its_last_stage_slips() {
+    let law = "stages = [{ until = 0.01, stiffness = 1000 }, { stiffness = 0 }]\n[[torque]]\n\
+               name = \"t\"\non = \"a\"\nmean = 12\n";
+    let result = simulate(&format!("{HELD}{law}"), "5s", "0.5s", &[]);
+    assert!(result.header.termination.is_complete(), "{:?}", result.header.termination);
+    let (early, late) = (at(&result, "a.speed", 2.0), at(&result, "a.speed", 5.0));
+    assert!((late - early - 3.0 * 0.4).abs() < 1e-9);
+    assert!((at(&result, "s.torque", 5.0) - 10.0).abs() < 1e-12);
 }

@@ -29,10 +29,13 @@ const POINTS: [(f64, f64); 7] = [
     (0.9, 40.0),
 ];
 
+/// A law and its definition.
+type Defined = (TorqueLaw, fn(f64) -> f64);
+
 /// One law of each kind and its definition.
-fn laws() -> Vec<(TorqueLaw, fn(f64) -> f64)> {
+fn laws() -> Vec<Defined> {
     let preloaded = PolynomialLaw::new([7.0, 500.0, 60.0, -40.0, 0.0, 30.0, 0.0, -2.0]);
-    let all: Vec<(TorqueLaw, fn(f64) -> f64)> = vec![
+    let all: Vec<Defined> = vec![
         (TorqueLaw::Polynomial(preloaded), |x| {
             7.0 + 500.0 * x + 60.0 * x.powi(2) - 40.0 * x.powi(3) + 30.0 * x.powi(5)
                 - 2.0 * x.powi(7)
@@ -322,4 +325,22 @@ fn flat_parts_have_one_twist_that_stands_for_them() {
     let nothing = TorqueLaw::PiecewiseLinear(PiecewiseLinearLaw::new(&[], &[], 0.0));
     assert_eq!(nothing.twists_at(0.0), vec![0.0]);
     assert!(nothing.twists_at(1.0).is_empty());
+}
+
+// Source: the first harmonic of c v over the arcs in contact, by summation.
+#[test]
+fn the_contact_share_is_the_damping_that_acts() {
+    for law in every_law() {
+        for (mean, amplitude) in [(0.0, 0.1), (0.0, 0.4), (0.1, 0.3), (-0.3, 0.2), (0.6, 0.1)] {
+            let count = 400_000;
+            let acting = (0..count).map(|i| {
+                let angle = PI * (f64::from(i) + 0.5) / f64::from(count);
+                let contact = law.in_contact(mean + amplitude * angle.cos());
+                if contact { angle.sin().powi(2) } else { 0.0 }
+            });
+            let share = 2.0 * acting.sum::<f64>() / f64::from(count);
+            let found = law.contact_share(mean, amplitude).share;
+            assert!((found - share).abs() < 1e-5, "{}: {found} {share}", law.name());
+        }
+    }
 }

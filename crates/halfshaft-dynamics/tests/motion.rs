@@ -9,7 +9,8 @@ fn line(text: &str) -> Driveline {
     read_model(Source::new("test.toml", text), &[]).unwrap_or_else(|e| panic!("{}", e.plain())).0
 }
 
-/// A geared, branched, partly nonlinear line with a loop and dampers to ground.
+/// A geared, branched, partly nonlinear line with loops, an elastic mesh, friction and dampers to
+/// ground.
 const BRANCHED: &str = r#"
 format = 1
 name = "branched"
@@ -46,6 +47,8 @@ to = "b"
 stiffness = 250
 quadratic = -30
 damping = 2
+friction = 7
+friction_speed = 1.5
 [[shaft]]
 name = "b-d"
 from = "b"
@@ -59,6 +62,13 @@ to = "d"
 stiffness = 35
 quintic = 20
 damping = 0.2
+[[gear]]
+name = "mesh"
+input = "a"
+output = "c"
+ratio = -3
+stiffness = 80
+damping = 0.4
 [[torque]]
 name = "t"
 on = "a"
@@ -74,7 +84,7 @@ order = 0.5
 pulse = { shape = "rectangle", peak = 5, start = 0.1, duration = 1 }
 "#;
 
-/// `M q'' = Q - D q' - Σ w (c x' + p(x))` written out for groups, without the coordinates of the
+/// `M q'' = Q - D q' - Σ w (c x' + r(x') + p(x))` written out for groups, without the coordinates of the
 /// motion.
 fn accelerations(
     equations: &EquationsOfMotion,
@@ -90,7 +100,8 @@ fn accelerations(
     }
     for (index, connection) in equations.connections.iter().enumerate() {
         let (x, v) = (equations.twist(index, angles), equations.twist(index, speeds));
-        let carried = connection.law.torque(x) + connection.damping * v;
+        let friction = if connection.name == "c-b" { 7.0 * (v / 1.5).tanh() } else { 0.0 };
+        let carried = connection.law.torque(x) + connection.damping * v + friction;
         equations.add_direction(index, -carried, &mut torques);
     }
     torques.iter().zip(&equations.inertia).map(|(torque, inertia)| torque / inertia).collect()
@@ -203,9 +214,18 @@ fn tangent_matrices_are_derivatives_of_the_torques() {
     let line = line(BRANCHED);
     let equations = EquationsOfMotion::new(&line).expect("is sound");
     let angles = [0.3, -0.2, 0.5, 0.1];
-    let twists: Vec<f64> = (0..4).map(|index| equations.twist(index, &angles)).collect();
+    let connections = equations.connections.len();
+    let twists: Vec<f64> = (0..connections).map(|index| equations.twist(index, &angles)).collect();
     let stiffness = equations.tangent_stiffness(&twists);
-    let damping = equations.damping_matrix();
+    // The friction is left out of the damping, so its slope at rest is added.
+    let mut damping = equations.damping_matrix();
+    let mut direction = [0.0; 4];
+    equations.add_direction(1, 1.0, &mut direction);
+    for row in 0..4 {
+        for column in 0..4 {
+            damping[(row, column)] += 7.0 / 1.5 * direction[row] * direction[column];
+        }
+    }
     let none = [0.0; 4];
     for column in 0..4 {
         let h = 1e-6;
@@ -216,15 +236,15 @@ fn tangent_matrices_are_derivatives_of_the_torques() {
         let a = accelerations(&equations, &up, &none, &none);
         let b = accelerations(&equations, &down, &none, &none);
         let mut moving = none;
-        moving[column] = 1.0;
+        moving[column] = 1e-6;
         let still = accelerations(&equations, &angles, &none, &none);
         let c = accelerations(&equations, &angles, &moving, &none);
         for row in 0..4 {
             let mass = equations.inertia[row];
             let slope = -mass * (a[row] - b[row]) / (2.0 * h);
             assert!((stiffness[(row, column)] - slope).abs() < 1e-5);
-            let slope = -mass * (c[row] - still[row]);
-            assert!((damping[(row, column)] - slope).abs() < 1e-9);
+            let slope = -mass * (c[row] - still[row]) / 1e-6;
+            assert!((damping[(row, column)] - slope).abs() < 1e-6);
         }
     }
 }
@@ -241,4 +261,22 @@ fn the_rigid_body_motion_twists_nothing() {
     // The road load balances the engine.
     let mean = equations.excitation.mean(equations.groups());
     assert!(rigid.torque(&mean).abs() < 1e-9);
+}
+
+// Source: the definition: the amplitude at Ω is (Ω / reference)^power times the written one, and its
+// slope is its central difference.
+#[test]
+fn growing_torques_have_their_amplitude_and_slope() {
+    let text = BRANCHED.replace("phase = \"40 deg\"", "speed_power = 2.5\nreference_speed = 4");
+    let equations = EquationsOfMotion::new(&line(&text)).expect("is sound");
+    let excitation = &equations.excitation;
+    assert_eq!(excitation.growing().map(|source| source.name.as_str()), Some("t"));
+    let at = |frequency: f64| excitation.harmonic(4, 1.0, frequency)[0].0;
+    // The torque acts on the fast side, where 3 N·m are -9 N·m at the group.
+    assert!((at(4.0) + 9.0).abs() < 1e-12);
+    assert!((at(6.0) + 9.0 * 1.5_f64.powf(2.5)).abs() < 1e-12);
+    let slope = (at(6.001) - at(5.999)) / 0.002;
+    assert!((excitation.harmonic_slope(4, 1.0, 6.0)[0].0 - slope).abs() < 1e-6);
+    // The other torque does not grow.
+    assert_eq!(excitation.harmonic(4, 0.5, 3.0), excitation.harmonic(4, 0.5, 30.0));
 }

@@ -159,9 +159,10 @@ fn numbers(line: &Driveline, list: List, index: usize) -> Vec<Number> {
     match list {
         List::Inertia => {}
         List::Gear => {
-            if let Some(mut gear) = line.gears.get(index).cloned() {
+            if let Some(gear) = line.gears.get(index) {
                 numbers.extend(listed(&GEAR, "ratios", "ratios", gear.ratios.len()));
-                numbers.retain(|number| gear.parameter_mut(&number.key).is_some());
+                // Asking for the stiffness makes a mesh elastic, so each key asks a gear of its own.
+                numbers.retain(|number| gear.clone().parameter_mut(&number.key).is_some());
             }
         }
         List::Shaft => {

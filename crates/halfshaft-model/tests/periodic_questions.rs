@@ -83,6 +83,7 @@ fn what_a_method_cannot_use_is_refused() {
         ),
         (QuestionText { harmonics: some("3"), ..averaged() }, "harmonics: only the method"),
         (QuestionText { harmonics: some("3"), ..first() }, "harmonics: only the method"),
+        (QuestionText { verify: true, ..first() }, "verify: one harmonic is not held"),
         (QuestionText { stability: some("hill"), ..averaged() }, "stability: only the method"),
         (
             QuestionText { parameter: amplitude(), frequency: some("26"), ..averaged() },
@@ -112,6 +113,7 @@ fn what_a_method_cannot_use_is_refused() {
         QuestionText { mode: some("1"), frequency: some("20..30"), ..averaged() },
         QuestionText { backbone: true, tolerance: some("1e-8"), ..averaged() },
         QuestionText { order: some("1"), points: some("500"), ..first() },
+        QuestionText { mode: some("1"), frequency: some("20..30"), ..first() },
     ] {
         assert!(read(Verb::Resonance, &text, &example()).is_ok(), "{text:?}");
     }

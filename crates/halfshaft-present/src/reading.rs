@@ -3,7 +3,7 @@
 //!
 //! Text, figures and findings all read it in this one way, so that they speak of the same shaft.
 
-use halfshaft_results::{Branch, Header, ResonanceResult, SpecialKind};
+use halfshaft_results::{Branch, Header, ResonanceResult};
 
 use crate::words::{column_label, column_words, plain, quantity};
 
@@ -124,14 +124,14 @@ impl<'r> Reading<'r> {
             result,
             method: Method::of(&result.header).unwrap_or(usual),
             x: abscissa(result),
-            channel: channel(result),
+            channel: result.leading_channel(),
         }
     }
 
     /// The column of the first harmonic of the channel, or of what else the branches have of it.
     pub(crate) fn column(&self) -> String {
         let Some(channel) = &self.channel else { return "rho".to_owned() };
-        let has = |measure: &&str| has_column(self.result, &format!("{channel}.{measure}"));
+        let has = |measure: &&str| self.result.has_column(&format!("{channel}.{measure}"));
         let measure = ["harmonic1", "amplitude"].into_iter().find(has).unwrap_or("harmonic1");
         format!("{channel}.{measure}")
     }
@@ -139,7 +139,7 @@ impl<'r> Reading<'r> {
     /// The column of the swing of the channel: half of peak to peak, or else its first harmonic.
     pub(crate) fn swing_column(&self) -> String {
         match &self.channel {
-            Some(channel) if has_column(self.result, &format!("{channel}.amplitude")) => {
+            Some(channel) if self.result.has_column(&format!("{channel}.amplitude")) => {
                 format!("{channel}.amplitude")
             }
             _ => self.column(),
@@ -189,21 +189,6 @@ pub(crate) fn bounds(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)
     })
 }
 
-/// Whether a branch is a response by itself, which no other joins: a slow sweep never gets there.
-pub(crate) fn is_detached(branch: &Branch) -> bool {
-    let joins = |kind: SpecialKind| match kind {
-        SpecialKind::BranchPoint => true,
-        // Of a response of one period it is where others leave it, not where it hangs on another.
-        SpecialKind::PeriodDoubling => branch.periods > 1,
-        _ => false,
-    };
-    branch.closed && !branch.special_points.iter().any(|point| joins(point.kind))
-}
-
-fn has_column(result: &ResonanceResult, name: &str) -> bool {
-    result.branches.iter().any(|branch| !branch.values(name).is_empty())
-}
-
 /// The parameter that was gone through, or the excitation speed.
 fn abscissa(result: &ResonanceResult) -> Abscissa {
     let speed = || Abscissa { column: "frequency".to_owned(), unit: "rad/s".to_owned() };
@@ -215,32 +200,6 @@ fn abscissa(result: &ResonanceResult) -> Abscissa {
         column: address.to_owned(),
         unit: column.unit.clone(),
     })
-}
-
-/// The twist that the result itself speaks of; else the one that swings most.
-fn channel(result: &ResonanceResult) -> Option<String> {
-    let scaled = result.scaling.first().map(|scaling| format!("{}.twist", scaling.shaft));
-    let jumps = result.jumps.iter().map(|jump| jump.channel.clone());
-    let checks = result.verification.iter().map(|point| point.channel.clone());
-    let known = |channel: &String| {
-        ["harmonic1", "amplitude"]
-            .iter()
-            .any(|measure| has_column(result, &format!("{channel}.{measure}")))
-    };
-    let named = scaled.into_iter().chain(jumps).chain(checks).find(known);
-    named.or_else(|| largest_twist(result))
-}
-
-fn largest_twist(result: &ResonanceResult) -> Option<String> {
-    let columns = result.branches.iter().flat_map(|branch| &branch.columns);
-    let twist = columns.filter_map(|column| {
-        let (channel, measure) = column.name.rsplit_once('.')?;
-        let swings = matches!(measure, "harmonic1" | "amplitude") && channel.ends_with(".twist");
-        let (_, most) = bounds(column.values.iter().copied()).filter(|_| swings)?;
-        Some((channel, most))
-    });
-    let most = twist.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some(most.0.to_owned())
 }
 
 #[cfg(test)]

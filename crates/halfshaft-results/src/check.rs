@@ -47,6 +47,23 @@ pub struct CheckedGear {
     /// Other ratios that it offers.
     #[serde(deserialize_with = "crate::number::read")]
     pub ratios: Vec<f64>,
+    /// Its mesh, where that is elastic.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<CheckedMesh>,
+}
+
+/// The elastic mesh of a gear, at the output.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedMesh {
+    /// N·m/rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub stiffness: f64,
+    /// N·m·s/rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub damping: f64,
+    /// Total backlash, rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub clearance: f64,
 }
 
 /// A term of a shaft's law beyond the linear one.
@@ -72,13 +89,13 @@ pub struct CheckedShaft {
     pub from: String,
     /// Node at the `to` end.
     pub to: String,
-    /// Linear stiffness, N·m/rad.
+    /// Linear stiffness, N·m/rad: on the flanks of a clearance, at zero twist of stages and tables.
     #[serde(deserialize_with = "crate::number::read")]
     pub stiffness: f64,
     /// Damping, N·m·s/rad.
     #[serde(deserialize_with = "crate::number::read")]
     pub damping: f64,
-    /// Terms beyond the linear one that are not zero.
+    /// Terms beyond the linear one that are not zero, and what else makes the law nonlinear.
     pub nonlinear_terms: Vec<NonlinearTerm>,
 }
 
@@ -95,6 +112,20 @@ pub struct CheckedTorque {
     pub harmonics: Vec<CheckedHarmonic>,
     /// The pulse, if any.
     pub pulse: Option<CheckedPulse>,
+    /// How the harmonics grow with the speed, if they do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub growth: Option<CheckedGrowth>,
+}
+
+/// Amplitudes that grow with a power of the excitation speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedGrowth {
+    /// The power.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub power: f64,
+    /// Speed at which the amplitudes are those stated, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub reference_speed: f64,
 }
 
 /// A harmonic of a torque.

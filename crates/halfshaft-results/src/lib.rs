@@ -29,8 +29,8 @@ mod table;
 
 pub use answer::Answer;
 pub use check::{
-    CheckResult, CheckedGear, CheckedHarmonic, CheckedPulse, CheckedShaft, CheckedTorque, Member,
-    NonlinearTerm, ReducedInertia,
+    CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
+    CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
 };
 pub use equilibrium::{
     Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, SharedLoad, StaticResult,
@@ -42,7 +42,7 @@ pub use history::{
     ShockDetails,
 };
 pub use modes::{Mode, ModesResult};
-pub use report::{MissingSection, ReportResult};
+pub use report::{LevelRow, MissingSection, ReportResult};
 pub use resonance::{Branch, Effort, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
 pub use special::{SpecialKind, SpecialPoint, Status};
 pub use study::{ComparisonRow, ItemStyle, StudyFigureSpec, StudyItem, StudyResult};

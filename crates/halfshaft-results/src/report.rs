@@ -17,6 +17,25 @@ pub struct MissingSection {
     pub advice: Option<String>,
 }
 
+/// One value by every method that tells it: what a report holds side by side.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LevelRow {
+    /// What it is, in words: "peak: speed".
+    pub what: String,
+    /// Excitation speed at which it is taken, rad/s, where the speed is not itself what differs.
+    pub at: Option<f64>,
+    /// Symbol of its unit.
+    pub unit: String,
+    /// By the closed form of one mode.
+    pub closed_form: Option<f64>,
+    /// By one harmonic of the whole line.
+    pub first_harmonic: Option<f64>,
+    /// By as many harmonics as the tolerance needs.
+    pub harmonic_balance: Option<f64>,
+    /// By a periodic motion of the full equations.
+    pub integration: Option<f64>,
+}
+
 /// Answer of `report`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReportResult {
@@ -31,10 +50,36 @@ pub struct ReportResult {
     pub modes: Option<ModesResult>,
     /// Shock by all methods.
     pub shock: Option<HistoryResult>,
-    /// Resonance, checked by integration.
+    /// Resonance by harmonic balance, checked by integration.
     pub resonance: Option<ResonanceResult>,
-    /// Fold curves, one plane each.
+    /// The same by one harmonic.
+    #[serde(default)]
+    pub first_harmonic: Option<ResonanceResult>,
+    /// The same in closed form, checked by integration.
+    #[serde(default)]
+    pub closed_form: Option<ResonanceResult>,
+    /// Values by every method side by side.
+    #[serde(default)]
+    pub levels: Vec<LevelRow>,
+    /// Fold curves by harmonic balance, one plane each.
     pub folds: Vec<FoldsResult>,
-    /// Sections that could not be had.
+    /// Fold curves in closed form, one plane each.
+    #[serde(default)]
+    pub closed_folds: Vec<FoldsResult>,
+    /// Sections that could not be had; a method of the resonance is named as such: `resonance`,
+    /// `first-harmonic`, `closed-form`.
     pub missing: Vec<MissingSection>,
+}
+
+impl ReportResult {
+    /// The resonance by the best method that has one.
+    pub fn best_resonance(&self) -> Option<&ResonanceResult> {
+        self.resonance.as_ref().or(self.closed_form.as_ref()).or(self.first_harmonic.as_ref())
+    }
+
+    /// The fold curves over a parameter by the best method that has them.
+    pub fn best_folds(&self, parameter: &str) -> Option<&FoldsResult> {
+        let all = self.folds.iter().chain(&self.closed_folds);
+        all.into_iter().find(|plane| plane.parameter == parameter)
+    }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Column, Header, Named, SpecialPoint, Table};
+use crate::{Column, Header, Named, SpecialKind, SpecialPoint, Table};
 
 /// A connected piece of the response curve: a table with its special points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -65,6 +65,17 @@ impl Branch {
             ends: String::new(),
             multipliers: Vec::new(),
         }
+    }
+
+    /// Whether the branch is a response by itself, which no other joins: no slow sweep gets there.
+    pub fn is_detached(&self) -> bool {
+        let joins = |kind: SpecialKind| match kind {
+            SpecialKind::BranchPoint => true,
+            // Of a response of one period it is where others leave it, not where it hangs on another.
+            SpecialKind::PeriodDoubling => self.periods > 1,
+            _ => false,
+        };
+        self.closed && !self.special_points.iter().any(|point| joins(point.kind))
     }
 
     /// Values of the column of that name; empty where there is none.
@@ -201,3 +212,38 @@ pub struct ResonanceResult {
     /// Responses checked by integration.
     pub verification: Vec<VerifiedPoint>,
 }
+
+impl ResonanceResult {
+    /// The twist by which the responses are told and drawn, e.g. `half-shaft.twist`: the one that the
+    /// result itself speaks of, or else the one that swings most.
+    pub fn leading_channel(&self) -> Option<String> {
+        let scaled = self.scaling.first().map(|scaling| format!("{}.twist", scaling.shaft));
+        let jumps = self.jumps.iter().map(|jump| jump.channel.clone());
+        let checks = self.verification.iter().map(|point| point.channel.clone());
+        let named = scaled.into_iter().chain(jumps).chain(checks);
+        let known = |channel: &String| {
+            MEASURES.iter().any(|measure| self.has_column(&format!("{channel}.{measure}")))
+        };
+        named.into_iter().find(known).or_else(|| self.largest_twist())
+    }
+
+    /// Whether any branch has a column of that name.
+    pub fn has_column(&self, name: &str) -> bool {
+        self.branches.iter().any(|branch| !branch.values(name).is_empty())
+    }
+
+    fn largest_twist(&self) -> Option<String> {
+        let columns = self.branches.iter().flat_map(|branch| &branch.columns);
+        let twists = columns.filter_map(|column| {
+            let (channel, measure) = column.name.rsplit_once('.')?;
+            let swings = MEASURES.contains(&measure) && channel.ends_with(".twist");
+            let finite = column.values.iter().copied().filter(|value| value.is_finite());
+            let most = finite.reduce(f64::max).filter(|_| swings)?;
+            Some((channel, most))
+        });
+        Some(twists.max_by(|a, b| a.1.total_cmp(&b.1))?.0.to_owned())
+    }
+}
+
+/// What of a channel tells how far it swings, the better one for comparison first.
+const MEASURES: [&str; 2] = ["harmonic1", "amplitude"];

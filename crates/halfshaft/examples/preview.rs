@@ -32,6 +32,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         write(name, &answer, &folder)?;
         pictures(&answer, &folder)?;
     }
+    let made = folder.join("made").join("report");
+    std::fs::create_dir_all(&made)?;
+    let report = made::with_every_method(&report(&line(embedded::scaled(), &[])?, &Silent)?);
+    let report = Answer::Report(Box::new(report));
+    write("report", &report, &made)?;
+    pictures(&report, &made)?;
     let starter = Source::new("starter", embedded::starter());
     let branched = Source::new("branched", branched(23));
     let scaled = |sets: &[&str]| line(embedded::scaled(), sets);

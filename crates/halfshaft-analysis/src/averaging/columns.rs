@@ -5,6 +5,7 @@
 //! of a shaft has the describing function of its law beside its damper.
 
 use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_dynamics::laws::PolynomialLaw;
 use halfshaft_numerics::polynomial::Polynomial;
 use halfshaft_results::{Column, Named};
 
@@ -50,7 +51,7 @@ impl ChannelMaps {
             };
             // A mode is only made of polynomial laws.
             let law = connection.law.polynomial();
-            let law = law.map_or(Polynomial::new([]), |law| law.polynomial());
+            let law = law.map_or(Polynomial::new([]), PolynomialLaw::polynomial);
             let about = law.shifted(rest);
             let damping = connection.damping;
             add("twist", "rad", ChannelKind::Motion { factor, rest });

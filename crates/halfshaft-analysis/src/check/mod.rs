@@ -1,13 +1,17 @@
 //! The line as the program understands it.
 
+mod shaft;
+
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
-use halfshaft_model::elements::{MeanTorque, Pulse, PulseShape, Shaft};
+use halfshaft_model::elements::{MeanTorque, Pulse, PulseShape};
 use halfshaft_model::question::Question;
 use halfshaft_results::{
-    CheckResult, CheckedGear, CheckedHarmonic, CheckedPulse, CheckedShaft, CheckedTorque, Member,
-    NonlinearTerm, ReducedInertia,
+    CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
+    CheckedTorque, Member, ReducedInertia,
 };
+
+use shaft::shaft;
 
 use crate::error::AnalysisError;
 use crate::header::header;
@@ -30,9 +34,20 @@ pub(crate) fn solve(line: &Driveline) -> Result<CheckResult, AnalysisError> {
                 output: gear.output.clone(),
                 ratio: gear.ratio,
                 ratios: gear.ratios.clone(),
+                mesh: gear.stiffness_nm_per_rad.map(|stiffness| CheckedMesh {
+                    stiffness,
+                    damping: gear.damping_nm_s_per_rad.unwrap_or(0.0),
+                    clearance: gear.clearance_rad.unwrap_or(0.0),
+                }),
             })
             .collect(),
-        shafts: line.shafts().iter().map(shaft).collect(),
+        // Connections begin with the shafts.
+        shafts: line
+            .shafts()
+            .iter()
+            .zip(&equations.connections)
+            .map(|(element, connection)| shaft(element, connection))
+            .collect(),
         torques: line.torques().iter().map(torque).collect(),
     })
 }
@@ -60,38 +75,6 @@ fn reduced(line: &Driveline, equations: &EquationsOfMotion) -> Vec<ReducedInerti
     equations.inertia.iter().enumerate().map(group).collect()
 }
 
-fn shaft(shaft: &Shaft) -> CheckedShaft {
-    let terms = [
-        ("quadratic", shaft.quadratic_nm_per_rad2, "N·m/rad²"),
-        ("cubic", shaft.cubic_nm_per_rad3, "N·m/rad³"),
-        ("quintic", shaft.quintic_nm_per_rad5, "N·m/rad⁵"),
-        ("septic", shaft.septic_nm_per_rad7, "N·m/rad⁷"),
-    ];
-    let effect = |key: &str, coefficient: f64| match (key, coefficient > 0.0) {
-        ("quadratic", true) => "stiffer to the positive side, softer to the negative",
-        ("quadratic", false) => "softer to the positive side, stiffer to the negative",
-        (_, true) => "hardening",
-        (_, false) => "softening: limits the torque that the shaft carries",
-    };
-    CheckedShaft {
-        name: shaft.name.clone(),
-        from: shaft.from.clone(),
-        to: shaft.to.clone(),
-        stiffness: shaft.stiffness_nm_per_rad,
-        damping: shaft.damping_nm_s_per_rad,
-        nonlinear_terms: terms
-            .into_iter()
-            .filter(|(_, coefficient, _)| *coefficient != 0.0)
-            .map(|(key, coefficient, unit)| NonlinearTerm {
-                key: key.to_owned(),
-                coefficient,
-                unit: unit.to_owned(),
-                effect: effect(key, coefficient).to_owned(),
-            })
-            .collect(),
-    }
-}
-
 fn torque(torque: &halfshaft_model::elements::Torque) -> CheckedTorque {
     CheckedTorque {
         name: torque.name.clone(),
@@ -111,6 +94,11 @@ fn torque(torque: &halfshaft_model::elements::Torque) -> CheckedTorque {
             })
             .collect(),
         pulse: torque.pulse.as_ref().map(pulse),
+        growth: torque
+            .speed_power
+            .zip(torque.reference_speed_rad_s)
+            .filter(|(power, _)| *power != 0.0)
+            .map(|(power, reference_speed)| CheckedGrowth { power, reference_speed }),
     }
 }
 

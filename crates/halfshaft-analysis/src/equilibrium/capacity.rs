@@ -14,30 +14,41 @@ pub(crate) fn capacity(law: &TorqueLaw) -> ShaftCapacity {
     capacity_of(&law.pieces())
 }
 
+/// Those limits beyond which the law carries less: past them a shaft snaps through, where past the
+/// others it slips.
+pub(crate) fn snap_limits(law: &TorqueLaw) -> ShaftCapacity {
+    both_ways(&law.pieces(), |law| first_limit(law).filter(|(_, falls)| *falls))
+}
+
 /// Limits of the torque over the twist in both directions.
 pub(super) fn capacity_of(law: &Pieces) -> ShaftCapacity {
-    let backwards = first_limit(&law.stretched(-1.0));
+    both_ways(law, first_limit)
+}
+
+fn both_ways(law: &Pieces, first: impl Fn(&Pieces) -> Option<(Limit, bool)>) -> ShaftCapacity {
+    let backwards =
+        |(limit, _): (Limit, bool)| Limit { torque: -limit.torque, twist: -limit.twist };
     ShaftCapacity {
-        positive: first_limit(law),
-        negative: backwards.map(|limit| Limit { torque: -limit.torque, twist: -limit.twist }),
+        positive: first(law).map(|(limit, _)| limit),
+        negative: first(&law.stretched(-1.0)).map(backwards),
     }
 }
 
-/// The first limit at positive twist.
-fn first_limit(law: &Pieces) -> Option<Limit> {
-    let limit = |twist: f64| Some(Limit { torque: law.torque(twist), twist });
+/// The first limit at positive twist, and whether the torque falls beyond.
+fn first_limit(law: &Pieces) -> Option<(Limit, bool)> {
+    let limit = |twist: f64| Limit { torque: law.torque(twist), twist };
     // Where the torque has stopped to rise, unless it rises again.
     let mut flat: Option<f64> = None;
     for piece in law.list().iter().filter(|piece| piece.to > 0.0) {
         for (from, to) in monotone_parts(piece) {
             let slope = slope_inside(piece, from, to);
             if slope < 0.0 {
-                return limit(flat.unwrap_or(from));
+                return Some((limit(flat.unwrap_or(from)), true));
             }
             flat = if slope > 0.0 { None } else { flat.or(Some(from)) };
         }
     }
-    limit(flat?)
+    Some((limit(flat?), false))
 }
 
 /// The parts of a piece at positive twist in which the torque does not turn.
@@ -67,8 +78,10 @@ fn slope_inside(piece: &Piece, from: f64, to: f64) -> f64 {
 /// Largest torque that the law carries in the direction of `load`; the smaller of both
 /// directions where there is no load. `None` where it is unbounded.
 pub(crate) fn carries(capacity: &ShaftCapacity, load: f64) -> Option<f64> {
-    let positive = capacity.positive.map(|limit| limit.torque.abs());
-    let negative = capacity.negative.map(|limit| limit.torque.abs());
+    // A direction in which the law carries nothing at all is no limit as long as nothing is asked.
+    let carried = |limit: Limit| Some(limit.torque.abs()).filter(|t| load != 0.0 || *t != 0.0);
+    let positive = capacity.positive.and_then(carried);
+    let negative = capacity.negative.and_then(carried);
     if load > 0.0 {
         positive
     } else if load < 0.0 {

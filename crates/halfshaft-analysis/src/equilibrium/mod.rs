@@ -19,7 +19,7 @@ use crate::error::AnalysisError;
 use crate::modal::elastic::ElasticSpace;
 
 pub(crate) use answer::{overload_message, solve};
-pub(crate) use capacity::{capacity, carries};
+pub(crate) use capacity::{capacity, carries, snap_limits};
 pub(crate) use clusters::all_twists;
 pub(crate) use free_play::free_play;
 pub(crate) use running::RunningState;

@@ -443,9 +443,7 @@ fn with_peaks(path: &Path, samples: Vec<Sample>) -> Vec<Sample> {
         peaks.push((if own < at { index + 1 } else { index + 2 }, sample));
     }
     let mut all = samples;
-    for (at, peak) in peaks.into_iter().rev() {
-        all.insert(at, peak);
-    }
+    peaks.into_iter().rev().for_each(|(at, peak)| all.insert(at, peak));
     all
 }
 

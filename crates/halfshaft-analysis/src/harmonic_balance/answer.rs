@@ -8,27 +8,29 @@ use halfshaft_model::question::{Question, ResonanceQuestion};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Branch, Column, Effort, Header, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
-    Status, Termination,
+    Branch, Column, Effort, Header, Named, ResonanceResult, SpecialKind, SpecialPoint, Status,
 };
 
+use super::backbone::{BackboneSettings, backbones};
 use super::branches::{Collected, Job, TracedBranch};
 use super::channels::{ChannelValue, Channels, named, names};
 use super::jumps::jumps;
 use super::line::Line;
+use super::messages::messages;
 use super::problem::Axis;
 use super::range::default_range;
-use super::seeds::{Seed, over_drive};
+use super::seeds::{Seed, drive_curve};
 use super::stability::Stability;
 use super::system::{HarmonicSystem, Place};
-use super::tracer::{BranchEnd, Counted, LONGEST, MISS, Sample, TraceSettings};
-use crate::averaging::ModeEquation;
+use super::tips::tips;
+use super::tracer::{BranchEnd, Counted, LONGEST, MISS, Sample, TraceSettings, length};
 use crate::equilibrium;
 use crate::error::AnalysisError;
 use crate::header::header;
 use crate::verification::common_order;
 
 /// A line about to be asked for its periodic responses.
+#[derive(Debug)]
 pub(crate) struct Setting {
     pub(crate) line: Line,
     /// Twists at rest.
@@ -61,6 +63,7 @@ impl Setting {
                 reason: "the orders of the torques have no common period".to_owned(),
             });
         };
+        refuse(&equations)?;
         let states = equilibrium::find_stable(&equations)?;
         let none = vec![0.0; equations.connections.len()];
         let rest = states.primary().map_or(none, |state| state.twists.clone());
@@ -74,26 +77,24 @@ impl Setting {
         Ok(Self { line, rest, base, odd, range })
     }
 
-    pub(super) fn set(&self, highest: usize) -> HarmonicSet {
-        if self.odd { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) }
+    /// Orders of the excitation over the base, ascending.
+    pub(super) fn orders(&self) -> Vec<usize> {
+        let orders = self.line.equations.excitation.orders().into_iter();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
+        let whole = orders.map(|order| (order / self.base).round() as usize);
+        whole.collect()
     }
 
     /// Highest order of the excitation over the base.
-    fn excited(&self) -> usize {
-        let orders = self.line.equations.excitation.orders();
-        let highest = orders.last().map_or(1.0, |order| order / self.base);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a small count"
-        )]
-        let highest = highest.round() as usize;
-        highest.max(1)
+    pub(super) fn excited(&self) -> usize {
+        self.orders().last().copied().unwrap_or(1).max(1)
     }
 
-    /// Seeds at the ends of the range and between them, with their speed and where they come from.
+    /// Seeds at the ends of the range and between them, and at the tips of resonances, with their
+    /// speed and where they come from.
     pub(super) fn seeds(
         &self,
+        harmonics: Option<usize>,
         observer: &dyn Observer,
         counted: &mut Counted,
     ) -> Vec<(Seed, f64, String)> {
@@ -102,14 +103,21 @@ impl Setting {
         let inner = (1..=INNER_SEEDS).map(|k| (at(k), format!("a response at {:.6} rad/s", at(k))));
         let ends =
             [(low, "low end of the range".to_owned()), (high, "high end of the range".to_owned())];
+        let (highest, orders) = (self.excited(), self.orders());
+        let set = if self.odd { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) };
         let mut seeds = Vec::new();
+        let mut curves = Vec::new();
         for (frequency, origin) in ends.into_iter().chain(inner) {
             let frequency = if frequency == 0.0 { 1e-3 * high } else { frequency };
-            let (line, highest) = (&self.line, self.excited());
-            let found = over_drive(
-                line, &self.rest, self.base, self.odd, highest, frequency, observer, counted,
+            let curve = drive_curve(
+                &self.line, &self.rest, self.base, &set, &orders, frequency, observer, counted,
             );
-            seeds.extend(found.into_iter().map(|seed| (seed, frequency, origin.clone())));
+            let found = curve.seeds.iter().cloned();
+            seeds.extend(found.map(|seed| (seed, frequency, origin.clone())));
+            curves.push(curve);
+        }
+        for (seed, frequency) in tips(self, curves, harmonics, observer, counted) {
+            seeds.push((seed, frequency, format!("a resonance at {frequency:.6} rad/s")));
         }
         seeds
     }
@@ -128,6 +136,23 @@ impl Setting {
     }
 }
 
+/// Refuses what the method cannot represent, by name: a damper that acts in contact only makes the
+/// torque jump where the contact opens.
+fn refuse(equations: &EquationsOfMotion) -> Result<(), AnalysisError> {
+    let jumps = |c: &&halfshaft_dynamics::Connection| !c.damps_in_gap && c.damping != 0.0;
+    match equations.connections.iter().find(jumps) {
+        Some(connection) if !connection.law.is_linear() => Err(AnalysisError::MethodDoesNotFit {
+            method: "harmonic-balance",
+            reason: format!(
+                "the damper of {} acts in contact only, so its torque jumps where the contact opens; \
+                 take damping_acts = \"always\", or --method first-harmonic",
+                connection.name
+            ),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Answers `resonance` by harmonic balance.
 pub(crate) fn solve(
     line: &Driveline,
@@ -136,12 +161,12 @@ pub(crate) fn solve(
 ) -> Result<ResonanceResult, AnalysisError> {
     let equations = Rc::new(EquationsOfMotion::new(line)?);
     let setting = Setting::new(Rc::clone(&equations), question.frequency, question.mode)?;
-    let mut settings = setting.trace_settings(question.tolerance, question.harmonics);
-    if let Some(points) = question.points {
-        settings.longest = (4.0 / points.max(2) as f64).min(LONGEST);
+    if let Some(range) = &question.parameter {
+        return super::parameter_answer::solve(line, question, range, &setting, observer);
     }
+    let settings = trace_settings(&setting, question);
     let mut counted = Counted::default();
-    let seeds = setting.seeds(observer, &mut counted);
+    let seeds = setting.seeds(question.harmonics, observer, &mut counted);
     let job = Job {
         line: &setting.line,
         axis: Axis::Frequency,
@@ -150,22 +175,51 @@ pub(crate) fn solve(
         settings,
         observer,
         doublings: true,
+        stability: question.stability,
+        judged: true,
     };
     let mut collected = job.collect(&seeds);
-    collected.counted.iterations += counted.iterations;
-    collected.counted.steps += counted.steps;
+    collected.counted.add(counted);
     let header = header(line, &Question::Resonance(question.clone()));
-    let mut result = assemble(&setting, &collected, header);
+    let mut measured = Measured::new(&setting, None);
+    let mut result = assemble(&setting, &collected, &mut measured, header);
+    result.jumps = jumps(&setting, &collected.branches);
     messages(&setting, question, &collected, &mut result);
+    if question.backbone {
+        let largest = collected.branches.iter().flat_map(|branch| &branch.samples);
+        let largest = largest.map(|sample| length(&sample.u)).fold(0.0, f64::max);
+        let settings = BackboneSettings {
+            frequency: setting.range,
+            tolerance: question.tolerance,
+            harmonics: question.harmonics,
+            most_drive: 3.0,
+            most_size: 1.5 * largest,
+        };
+        let states = equilibrium::find_stable(&equations)?;
+        result.backbones = backbones(&setting, &states, &settings, observer)?;
+    }
     if question.verify {
         super::verify::verify(&setting, &collected, &mut result, observer)?;
     }
     Ok(result)
 }
 
+/// Settings of the continuation that a question asks for.
+pub(super) fn trace_settings(setting: &Setting, question: &ResonanceQuestion) -> TraceSettings {
+    let mut settings = setting.trace_settings(question.tolerance, question.harmonics);
+    if let Some(points) = question.points {
+        settings.longest = (4.0 / points.max(2) as f64).min(LONGEST);
+    }
+    settings
+}
+
 /// The branches as a result.
-fn assemble(setting: &Setting, collected: &Collected, header: Header) -> ResonanceResult {
-    let mut measured = Measured::new(setting);
+pub(super) fn assemble(
+    setting: &Setting,
+    collected: &Collected,
+    measured: &mut Measured<'_>,
+    header: Header,
+) -> ResonanceResult {
     let branches: Vec<Branch> = collected.branches.iter().map(|b| measured.branch(b)).collect();
     let samples = collected.branches.iter().map(|branch| branch.samples.len()).sum();
     let peaks =
@@ -173,7 +227,7 @@ fn assemble(setting: &Setting, collected: &Collected, header: Header) -> Resonan
     ResonanceResult {
         header,
         peaks: peaks.collect(),
-        jumps: jumps(setting, &collected.branches),
+        jumps: Vec::new(),
         branches,
         scaling: Vec::new(),
         backbones: Vec::new(),
@@ -191,11 +245,23 @@ fn assemble(setting: &Setting, collected: &Collected, header: Header) -> Resonan
 pub(super) struct Measured<'s> {
     setting: &'s Setting,
     systems: Vec<(HarmonicSystem, Channels)>,
+    /// What runs in place of the excitation speed.
+    along: Option<Along<'s>>,
+}
+
+/// A number of the line that runs along the branches.
+#[derive(Clone, Copy)]
+pub(super) struct Along<'s> {
+    pub(super) address: &'s str,
+    pub(super) unit: &'static str,
+    pub(super) frequency: f64,
+    /// The line at each value.
+    pub(super) family: &'s dyn Fn(f64) -> Option<Line>,
 }
 
 impl<'s> Measured<'s> {
-    pub(super) fn new(setting: &'s Setting) -> Self {
-        Self { setting, systems: Vec::new() }
+    pub(super) fn new(setting: &'s Setting, along: Option<Along<'s>>) -> Self {
+        Self { setting, systems: Vec::new(), along }
     }
 
     /// Values of all channels at a sample of a branch over the excitation speed.
@@ -209,15 +275,35 @@ impl<'s> Measured<'s> {
             self.systems.len() - 1
         });
         let (system, channels) = &mut self.systems[at];
-        let place = Place { frequency: sample.p, drive: 1.0 };
+        let mut place = Place { frequency: sample.p, drive: 1.0 };
+        if let Some(along) = &self.along {
+            place.frequency = along.frequency;
+            if let Some(line) = (along.family)(sample.p) {
+                system.replace(line);
+            }
+        }
         channels.measure(system, &sample.u, place)
+    }
+
+    /// Speed, and the number that runs in its place, of a sample.
+    fn place(&self, sample: &Sample) -> Vec<(String, &'static str, f64)> {
+        let speed = self.along.map_or(sample.p, |along| along.frequency);
+        let mut place = vec![("frequency".to_owned(), "rad/s", speed)];
+        if let Some(along) = &self.along {
+            place.push((along.address.to_owned(), along.unit, sample.p));
+        }
+        place
     }
 
     fn branch(&mut self, branch: &TracedBranch) -> Branch {
         let rows: Vec<Vec<ChannelValue>> =
             branch.samples.iter().map(|s| self.values(s, branch.base, branch.periods)).collect();
         let of = |value: &dyn Fn(usize) -> f64| (0..rows.len()).map(value).collect::<Vec<f64>>();
-        let mut columns = vec![Column::new("frequency", "rad/s", of(&|k| branch.samples[k].p))];
+        let mut columns: Vec<Column> = Vec::new();
+        let places: Vec<_> = branch.samples.iter().map(|sample| self.place(sample)).collect();
+        for (index, (name, unit, _)) in places.first().into_iter().flatten().enumerate() {
+            columns.push(Column::new(name.clone(), *unit, of(&|k| places[k][index].2)));
+        }
         for (index, (name, unit)) in names(&self.setting.line.equations).into_iter().enumerate() {
             let mut add = |word: &str, value: &dyn Fn(&ChannelValue) -> f64| {
                 let values = rows.iter().map(|row| value(&row[index])).collect();
@@ -259,7 +345,7 @@ impl<'s> Measured<'s> {
     fn point(&mut self, branch: &TracedBranch, sample: &Sample) -> Named<f64> {
         let values = self.values(sample, branch.base, branch.periods);
         let mut all: Named<f64> = Named::new();
-        all.insert("frequency".to_owned(), sample.p);
+        all.extend(self.place(sample).into_iter().map(|(name, _, value)| (name, value)));
         all.extend(named(&self.setting.line.equations, &values));
         all
     }
@@ -340,66 +426,4 @@ fn peak(setting: &Setting, branch: &Branch) -> Option<Named<f64>> {
 pub(super) fn reference(setting: &Setting) -> &str {
     let index = setting.line.twists.first().map_or(0, |twist| twist.connection);
     &setting.line.equations.connections[index].name
-}
-
-fn messages(
-    setting: &Setting,
-    question: &ResonanceQuestion,
-    all: &Collected,
-    result: &mut ResonanceResult,
-) {
-    let header = &mut result.header;
-    header.warnings.extend(all.messages.iter().cloned());
-    if all.branches.is_empty() {
-        header.warnings.push(format!(
-            "no periodic response was found between {:.6} and {:.6} rad/s; try a narrower range or a \
-             lower amplitude",
-            setting.range.0, setting.range.1
-        ));
-    }
-    for branch in &all.branches {
-        let mut stopped = |end: BranchEnd, sample: Option<&Sample>| {
-            let Some(sample) = sample else { return };
-            let why = match end {
-                BranchEnd::StepTooSmall => "no step was small enough to go on",
-                BranchEnd::SampleLimit => "as many samples as allowed were taken",
-                BranchEnd::Unbounded => "the response grows beyond all measure",
-                _ => return,
-            };
-            header.warnings.push(format!(
-                "the branch from the {} stops at {:.6} rad/s: {why}; try --tolerance {:.0e} or a \
-                 narrower range",
-                branch.origin,
-                sample.p,
-                10.0 * question.tolerance
-            ));
-        };
-        stopped(branch.ends[0], branch.samples.first());
-        stopped(branch.ends[1], branch.samples.last());
-    }
-    if all.exhausted {
-        header.warnings.push(format!(
-            "even {} harmonics leave more than the tolerance of {:e} of some waveforms; see the column \
-             truncation",
-            super::tracer::MOST_HARMONICS,
-            question.tolerance
-        ));
-    }
-    if let Some(harmonics) = question.harmonics {
-        header.assumptions.push(format!("{harmonics} harmonics, as asked"));
-    }
-    if all.cancelled {
-        let detail = "branches were left before their end".to_owned();
-        header.termination = Termination::early(Reason::Cancelled, detail);
-    }
-}
-
-/// The mode equation of a line, for what only closed forms know.
-pub(super) fn mode_equation(
-    equations: &EquationsOfMotion,
-    rest: &equilibrium::RestState,
-    mode: usize,
-    order: f64,
-) -> Result<ModeEquation, AnalysisError> {
-    ModeEquation::new(equations, rest, mode, order)
 }

@@ -1,11 +1,13 @@
 //! All branches of one question: seeds followed, joined, told apart, and those that branch off.
 
+use halfshaft_model::question::StabilityMethod;
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::SpecialKind;
 
 use super::line::Line;
-use super::problem::{Axis, Condition, Problem};
+use super::problem::{Axis, Problem};
+use super::refine::refine;
 use super::seeds::Seed;
 use super::special::Special;
 use super::stability::{Judge, Stability};
@@ -50,17 +52,22 @@ pub(super) struct Job<'j, 'f> {
     pub(super) observer: &'j dyn Observer,
     /// Whether responses of twice the period are followed where they branch off.
     pub(super) doublings: bool,
+    pub(super) stability: StabilityMethod,
+    /// Whether stability and what depends on it are wanted, or folds only.
+    pub(super) judged: bool,
 }
 
 /// Responses this near to a branch, relative, are on it.
 const SAME: f64 = 1e-5;
+/// Responses farther than this from the chord of two samples are not between them, in the metric.
+const REACH: f64 = 0.1;
+/// Samples this near to a branch, relative, run along it: the miss of its straight pieces.
+const ALONG: f64 = 5e-3;
 /// Guesses this near to a branch are not worth a try.
-const NEAR: f64 = 0.02;
-/// How far from a branch point the first response of the other branch is looked for, relative.
-const OFFSET: f64 = 1e-2;
+pub(super) const NEAR: f64 = 0.02;
 
 impl<'j, 'f> Job<'j, 'f> {
-    fn tracer(&self, set: HarmonicSet, base: f64) -> Tracer<'j, 'f> {
+    pub(super) fn tracer(&self, set: HarmonicSet, base: f64) -> Tracer<'j, 'f> {
         let system = HarmonicSystem::new(self.line.clone(), set, base);
         Tracer::new(Problem::new(system, self.axis, self.place), self.settings, self.observer)
     }
@@ -76,7 +83,7 @@ impl<'j, 'f> Job<'j, 'f> {
         };
         let Some((first, _, _)) = seeds.first() else { return all };
         let mut tracer = self.tracer(first.set.clone(), self.base);
-        let mut judge = Judge::new(&tracer.problem.system);
+        let mut judge = Judge::new(&tracer.problem.system, self.stability);
         for (seed, p, origin) in seeds {
             if self.observer.cancelled() {
                 all.cancelled = true;
@@ -110,17 +117,21 @@ impl<'j, 'f> Job<'j, 'f> {
         all.counted.iterations += tracer.counted.iterations;
         all.exhausted |= tracer.exhausted;
         drop(tracer);
-        self.branch_off(&mut all);
+        merge_duplicates(&mut all.branches);
+        if self.judged {
+            self.branch_off(&mut all);
+        }
         all.cancelled |= all.branches.iter().any(|b| b.ends.contains(&BranchEnd::Cancelled));
         all
     }
 
     /// Harmonics to begin with.
     fn start_set(&self, set: &HarmonicSet) -> HarmonicSet {
-        set.up_to(self.settings.harmonics.unwrap_or(super::tracer::LEAST_HARMONICS))
+        let least = super::tracer::LEAST_HARMONICS.max(set.highest());
+        set.up_to(self.settings.harmonics.unwrap_or(least))
     }
 
-    fn both_ways(
+    pub(super) fn both_ways(
         &self,
         tracer: &mut Tracer<'_, '_>,
         judge: &mut Judge,
@@ -151,7 +162,7 @@ impl<'j, 'f> Job<'j, 'f> {
         self.judged(tracer, judge, samples, ends, 1, origin)
     }
 
-    fn judged(
+    pub(super) fn judged(
         &self,
         tracer: &mut Tracer<'_, '_>,
         judge: &mut Judge,
@@ -160,191 +171,67 @@ impl<'j, 'f> Job<'j, 'f> {
         periods: u32,
         origin: String,
     ) -> TracedBranch {
+        if !self.judged {
+            let unknown = vec![Stability::default(); samples.len()];
+            let specials = tracer.folds(judge, &samples);
+            let base = tracer.problem.system.base;
+            return TracedBranch {
+                samples,
+                stability: unknown,
+                specials,
+                base,
+                periods,
+                origin,
+                ends,
+            };
+        }
         let stability: Vec<Stability> =
             samples.iter().map(|sample| tracer.judge(judge, sample).unwrap_or_default()).collect();
-        let specials = tracer.specials(judge, &samples, &stability);
+        let mut specials = tracer.specials(judge, &samples, &stability);
         let base = tracer.problem.system.base;
+        if tracer.shoots() {
+            for special in specials.iter_mut().filter(|special| special.located) {
+                let pair = (&samples[special.after], &samples[special.after + 1]);
+                refine(self.line, base, pair, special);
+            }
+            // Harmonics that come and go make a curve with kinks waver: what no orbit confirms is no
+            // fold.
+            specials.retain(|special| {
+                special.kind != SpecialKind::Fold || special.precision.is_finite()
+            });
+        }
         TracedBranch { samples, stability, specials, base, periods, origin, ends }
     }
+}
 
-    /// Follows what branches off at branch points and period doublings.
-    fn branch_off(&self, all: &mut Collected) {
-        let mut at = 0;
-        // Branches that branch off are not asked again where they double: period 2 and no more.
-        while at < all.branches.len() && at < MOST_BRANCHES {
-            let branch = all.branches[at].clone();
-            for special in branch.specials.iter().filter(|special| special.located) {
-                let doubling = special.kind == SpecialKind::PeriodDoubling;
-                let follows = match special.kind {
-                    SpecialKind::PeriodDoubling => self.doublings && branch.periods == 1,
-                    SpecialKind::BranchPoint => true,
-                    _ => false,
-                };
-                if !follows || self.observer.cancelled() {
-                    continue;
-                }
-                if let Some(found) = self.switch(all, &branch, special, doubling) {
-                    all.branches.push(found);
-                }
-            }
+/// Drops branches that run along another: pieces of it that were followed from a seed of their own.
+fn merge_duplicates(branches: &mut Vec<TracedBranch>) {
+    let along = |piece: &TracedBranch, whole: &TracedBranch| {
+        let count = piece.samples.len();
+        count > 0
+            && piece.base == whole.base
+            && [count / 4, count / 2, 3 * count / 4].into_iter().all(|at| {
+                let sample = &piece.samples[at];
+                on_branch(whole, &sample.set, &sample.u, sample.p, ALONG)
+            })
+    };
+    let mut at = 0;
+    while at < branches.len() {
+        let piece = &branches[at];
+        let longer = |other: &TracedBranch| other.samples.len() > piece.samples.len();
+        let duplicate = branches.iter().any(|whole| longer(whole) && along(piece, whole));
+        if duplicate {
+            branches.remove(at);
+        } else {
             at += 1;
         }
     }
-
-    /// The branch that crosses at a special point.
-    fn switch(
-        &self,
-        all: &mut Collected,
-        branch: &TracedBranch,
-        special: &Special,
-        doubling: bool,
-    ) -> Option<TracedBranch> {
-        let old = &special.sample.set;
-        let factor = if doubling { 2 } else { 1 };
-        let set = HarmonicSet::all(factor * old.highest() + if old.is_odd() { 1 } else { 0 });
-        let base = branch.base / f64::from(if doubling { 2_u8 } else { 1 });
-        let u = refit(old, &set, factor, &special.sample.u);
-        let p = special.sample.p;
-        let mut tracer = self.tracer(set.clone(), base);
-        let null = null_direction(&mut tracer, &u, p, old, factor, &special.sample)?;
-        let size = length(&u).max(f64::MIN_POSITIVE.sqrt());
-        let metric = tracer.metric(&u);
-        let row: Vec<f64> = null.iter().map(|x| x / (size * size)).collect();
-        let mut start = None;
-        for offset in [OFFSET, 0.3 * OFFSET, 3.0 * OFFSET, 0.1 * OFFSET] {
-            let mut v: Vec<f64> = u.iter().zip(&null).map(|(u, n)| u + offset * size * n).collect();
-            let mut q = p;
-            let held: f64 = row.iter().zip(&v).map(|(r, v)| r * v).sum();
-            let condition = Condition { row: &row, corner: 0.0, target: held };
-            if tracer.problem.correct(&mut v, &mut q, &condition, &metric).is_ok() {
-                let unit = (null.as_slice(), 0.0);
-                start = tracer.finish_sample(set.clone(), v, q, &metric, Some(unit)).ok();
-                break;
-            }
-        }
-        let start = start?;
-        let periods = branch.periods * if doubling { 2 } else { 1 };
-        let known = all.branches.iter().any(|other| {
-            other.periods == periods && other.base == base && on_mirrored(other, &start)
-        });
-        if known {
-            return None;
-        }
-        let mut judge = Judge::new(&tracer.problem.system);
-        let name = if doubling { "period doubling" } else { "branch point" };
-        let origin = format!("{name} at {p:.6}");
-        let what = if doubling { Parting::Doubling } else { Parting::Mirror };
-        let along = start.tangent.iter().zip(&null).map(|(t, n)| t * n).sum::<f64>();
-        let (samples, end) = tracer.follow(&start, if along < 0.0 { -1.0 } else { 1.0 });
-        let (mut samples, end) = until_rejoined(samples, end, what, old.is_odd() || doubling);
-        // The branch begins at the point where it parts.
-        let point = tracer.finish_sample(set, u, p, &metric, Some((&null, 0.0))).ok();
-        if let Some(point) = point {
-            samples.insert(0, point);
-        }
-        all.counted.steps += tracer.counted.steps;
-        all.counted.iterations += tracer.counted.iterations;
-        Some(self.judged(
-            &mut tracer,
-            &mut judge,
-            samples,
-            [BranchEnd::Enough, end],
-            periods,
-            origin,
-        ))
-    }
 }
 
-/// Branches that are asked for what branches off.
-const MOST_BRANCHES: usize = 24;
-
-/// What parts a branch from the one it branched off.
-#[derive(Clone, Copy)]
-enum Parting {
-    /// Odd orders of half the base.
-    Doubling,
-    /// Even orders.
-    Mirror,
-}
-
-/// Cuts a branch where it comes back to the one that it branched off: what parts them passes through
-/// zero there, and what follows is the same branch shifted in time.
-fn until_rejoined(
-    samples: Vec<Sample>,
-    end: BranchEnd,
-    what: Parting,
-    parted: bool,
-) -> (Vec<Sample>, BranchEnd) {
-    if !parted {
-        return (samples, end);
-    }
-    let part = |sample: &Sample| -> Vec<f64> {
-        let m = sample.set.coefficients();
-        let keep = |order: usize| match what {
-            Parting::Doubling => order % 2 == 1,
-            Parting::Mirror => order % 2 == 0,
-        };
-        let places: Vec<usize> = sample
-            .set
-            .places()
-            .filter(|(order, _)| keep(*order) && *order <= 3)
-            .flat_map(
-                |(order, place)| if order == 0 { vec![place] } else { vec![place, place + 1] },
-            )
-            .collect();
-        sample
-            .u
-            .chunks_exact(m)
-            .flat_map(|node| places.iter().map(|p| node[*p]).collect::<Vec<_>>())
-            .collect()
-    };
-    for at in 1..samples.len() {
-        let (a, b) = (part(&samples[at - 1]), part(&samples[at]));
-        let dot: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
-        if dot < 0.0 && length(&a) < 0.3 * length(&samples[at - 1].u) {
-            let mut kept = samples;
-            kept.truncate(at);
-            return (kept, BranchEnd::Enough);
-        }
-    }
-    (samples, end)
-}
-
-fn flip(sample: &mut Sample) {
+pub(super) fn flip(sample: &mut Sample) {
     sample.tangent.iter_mut().for_each(|x| *x = -*x);
     sample.tangent_p = -sample.tangent_p;
     sample.orientation = -sample.orientation;
-}
-
-/// The null vector of the Jacobian in a larger set that the old branch's direction does not have: by
-/// inverse iteration, with what the old set knows taken out.
-fn null_direction(
-    tracer: &mut Tracer<'_, '_>,
-    u: &[f64],
-    p: f64,
-    old: &HarmonicSet,
-    factor: usize,
-    sample: &Sample,
-) -> Option<Vec<f64>> {
-    let set = tracer.problem.system.set.clone();
-    let metric = tracer.metric(u);
-    let along = refit(old, &set, factor, &sample.tangent);
-    let weights: Vec<f64> = along.iter().map(|x| x / (metric.size * metric.size)).collect();
-    tracer.problem.evaluate(u, p).ok()?;
-    tracer.problem.factorise(&weights, sample.tangent_p / (metric.span * metric.span)).ok()?;
-    // A fixed start that has a share of everything.
-    let mut v: Vec<f64> = (0..u.len()).map(|k| 1.0 + 0.3 * (k as f64 * 1.7).sin()).collect();
-    let mut q = 0.0;
-    for _ in 0..6 {
-        tracer.problem.solve(&mut v, &mut q);
-        let size = length(&v);
-        if !size.is_finite() || size == 0.0 {
-            return None;
-        }
-        v.iter_mut().for_each(|x| *x /= size);
-        q = 0.0;
-    }
-    Some(v)
 }
 
 /// Whether a response lies on a branch, to a part of its size.
@@ -356,24 +243,6 @@ pub(super) fn on_branch(
     part: f64,
 ) -> bool {
     distance(branch, set, u, p).is_some_and(|near| near < part)
-}
-
-/// Whether a response, or the same half a period later, lies on a branch.
-fn on_mirrored(branch: &TracedBranch, sample: &Sample) -> bool {
-    let m = sample.set.coefficients();
-    let mut shifted = sample.u.clone();
-    for node in shifted.chunks_exact_mut(m) {
-        for (order, place) in sample.set.places().filter(|(order, _)| order % 2 == 1) {
-            let _ = order;
-            node[place] = -node[place];
-            node[place + 1] = -node[place + 1];
-        }
-    }
-    let mut mirrored = shifted.clone();
-    mirrored.iter_mut().for_each(|x| *x = -*x);
-    on_branch(branch, &sample.set, &sample.u, sample.p, NEAR)
-        || on_branch(branch, &sample.set, &shifted, sample.p, NEAR)
-        || on_branch(branch, &sample.set, &mirrored, sample.p, NEAR)
 }
 
 /// Least distance of a response from the branch at its parameter, relative to its size.
@@ -392,28 +261,30 @@ fn distance(branch: &TracedBranch, set: &HarmonicSet, u: &[f64], p: f64) -> Opti
         .reduce(f64::min)
 }
 
-/// Whether a response is met by correcting the nearest response of a branch at its parameter.
+/// Whether a response is met by correcting the nearest places of a branch, each in the plane across
+/// the branch in which the response lies: that works at folds as well as elsewhere.
 fn refined(tracer: &mut Tracer<'_, '_>, branch: &TracedBranch, sample: &Sample) -> bool {
-    let pairs: Vec<(Vec<f64>, f64)> = branch
-        .samples
-        .windows(2)
-        .filter(|pair| (pair[0].p - sample.p) * (pair[1].p - sample.p) <= 0.0)
-        .map(|pair| {
-            let fit = |s: &Sample| refit(&s.set, &sample.set, 1, &s.u);
-            let (a, b) = (fit(&pair[0]), fit(&pair[1]));
-            let span = pair[1].p - pair[0].p;
-            let part = if span == 0.0 { 0.5 } else { (sample.p - pair[0].p) / span };
-            let u: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + part * (b - a)).collect();
-            let away: f64 = u.iter().zip(&sample.u).map(|(a, b)| (a - b) * (a - b)).sum();
-            (u, away.sqrt())
-        })
-        .collect();
     let size = length(&sample.u).max(f64::MIN_POSITIVE.sqrt());
-    pairs.into_iter().filter(|(_, away)| *away < 0.2 * size).any(|(mut u, _)| {
-        let mut same = u.clone();
-        tracer.use_set(&sample.set, &mut same, &sample.set);
-        let done = tracer.problem.at(&mut u, sample.p, size);
-        let away: f64 = u.iter().zip(&sample.u).map(|(a, b)| (a - b) * (a - b)).sum();
-        done.is_ok() && away.sqrt() < SAME * size
+    branch.samples.windows(2).any(|pair| {
+        let fit = |s: &Sample| refit(&s.set, &sample.set, 1, &s.u);
+        let (a, b) = (fit(&pair[0]), fit(&pair[1]));
+        let metric = tracer.metric(&a);
+        let from_a = |u: &[f64]| u.iter().zip(&a).map(|(u, a)| u - a).collect::<Vec<f64>>();
+        let (chord, chord_p) = (from_a(&b), pair[1].p - pair[0].p);
+        let (d, d_p) = (from_a(&sample.u), sample.p - pair[0].p);
+        let square = metric.norm(&chord, chord_p).powi(2);
+        let part = metric.dot((&d, d_p), (&chord, chord_p)) / square;
+        if !(-0.05..=1.05).contains(&part) {
+            return false;
+        }
+        let off: Vec<f64> = d.iter().zip(&chord).map(|(d, c)| d - part * c).collect();
+        if metric.norm(&off, d_p - part * chord_p) > REACH {
+            return false;
+        }
+        let Ok(place) = tracer.on_segment((&pair[0], &pair[1]), part, &sample.set) else {
+            return false;
+        };
+        let away = place.u.iter().zip(&sample.u).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        away.sqrt() < SAME * size && (place.p - sample.p).abs() < SAME * metric.span
     })
 }

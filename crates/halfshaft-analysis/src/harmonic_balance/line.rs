@@ -94,6 +94,15 @@ impl Line {
             && self.mean.iter().all(|q| *q == 0.0)
     }
 
+    /// Whether a law is not smooth: its torque has kinks, in itself or in a higher derivative, or
+    /// friction bends within a small speed.
+    pub(super) fn has_kinks(&self) -> bool {
+        self.twists.iter().any(|twist| {
+            let connection = &self.equations.connections[twist.connection];
+            connection.law.polynomial().is_none() || connection.friction.is_some()
+        })
+    }
+
     /// Number of nodes of the block system.
     pub(super) fn nodes(&self) -> usize {
         self.skeleton.kept.len()

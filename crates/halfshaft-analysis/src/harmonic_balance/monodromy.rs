@@ -7,8 +7,8 @@
 //! (k+1)(k+2) M q_{k+2} = -Σ_e w_e [ Σ_j k_j x_{k-j} + Σ_j c_j (k-j+1) x_{k-j+1} ] - (k+1) D q_{k+1}
 //! ```
 //!
-//! for all columns of the monodromy matrix at once, to degree 20, with the step that keeps the last
-//! terms at rounding. Steps end where a twist passes from one piece of its law to another. The
+//! for panels of columns of the monodromy matrix, to degree 20, with the step that keeps the last terms
+//! at rounding in all of them. Steps end where a twist passes from one piece of its law to another. The
 //! rigid-body angle of a free line is left out (its multiplier is 1 whatever happens), and so is its
 //! speed unless dampers to ground couple it. An orbit that mirrors itself after half a period needs
 //! half the work: its monodromy matrix is a square.
@@ -19,6 +19,7 @@ use halfshaft_numerics::Complex;
 use halfshaft_numerics::dense::{Matrix, eigenvalues};
 use halfshaft_numerics::harmonics::HarmonicSet;
 
+use super::panels::{Panels, Tangent};
 use super::series::{DEGREE, Series, expand, friction_slope, stiffness};
 use super::switching::passages;
 
@@ -36,56 +37,27 @@ pub(super) struct Orbit<'o> {
 pub(super) struct Variational {
     /// Pieces of the law of each connection; `None` for linear ones.
     laws: Vec<Option<Pieces>>,
-    /// Inverse inertias.
-    yielding: Vec<f64>,
-    damped: bool,
     /// Twists and rates, and the speed as a whole where it counts.
     with_speed: bool,
     columns: usize,
-    /// `q_k`, row-major: power, group, column.
-    angles: Vec<f64>,
-    /// `x_k` of the connection at hand for all powers, connection by connection.
-    twists: Vec<f64>,
-    net: Vec<f64>,
-    torque: Vec<f64>,
-    reference_speed: f64,
 }
 
-/// Size of the last terms of a step relative to the first.
-const ROUNDING: f64 = 1e-14;
 /// Steps a period at most.
 const MOST_STEPS: usize = 100_000;
-
-/// Tangent stiffness and damping of one connection over a step.
-#[derive(Clone)]
-struct Tangent {
-    stiffness: Series,
-    stiffness_terms: usize,
-    damping: Series,
-    damping_terms: usize,
-}
+/// Terms of a tangent stiffness that change a step by less than this part are left out.
+const NEGLIGIBLE: f64 = 1e-17;
+/// Part of the longest step that the last step's terms allowed.
+const CAUTION: f64 = 0.92;
 
 impl Variational {
     pub(super) fn new(equations: &EquationsOfMotion, nonlinear: &[usize]) -> Self {
-        let groups = equations.groups();
         let mut laws = vec![None; equations.connections.len()];
         for index in nonlinear {
             laws[*index] = Some(equations.connections[*index].law.pieces());
         }
         let with_speed = equations.rigid.as_ref().is_some_and(|rigid| rigid.ground_damping > 0.0);
         let columns = 2 * equations.network.tree.len() + usize::from(with_speed);
-        Self {
-            yielding: equations.inertia.iter().map(|m| 1.0 / m).collect(),
-            damped: equations.ground_damping.iter().any(|d| *d != 0.0),
-            angles: vec![0.0; (DEGREE + 1) * groups * columns],
-            twists: vec![0.0; laws.len() * (DEGREE + 1) * columns],
-            net: vec![0.0; groups * columns],
-            torque: vec![0.0; columns],
-            reference_speed: 1.0,
-            laws,
-            with_speed,
-            columns,
-        }
+        Self { laws, with_speed, columns }
     }
 
     /// The multipliers of an orbit, largest modulus first; of half a period for one that mirrors
@@ -95,58 +67,81 @@ impl Variational {
         equations: &EquationsOfMotion,
         orbit: &Orbit<'_>,
     ) -> Result<Vec<Complex>, halfshaft_numerics::Error> {
-        let half = orbit.set.is_odd();
         let period = std::f64::consts::TAU / orbit.speed;
-        let end = if half { 0.5 * period } else { period };
+        let end = if orbit.set.is_odd() { 0.5 * period } else { period };
         let matrix = self.monodromy(equations, orbit, end)?;
         let mut values = spectrum(&matrix)?;
         values.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
         Ok(values)
     }
 
-    /// The fundamental matrix in twists and their rates (over the reference speed) from 0 to `end`.
+    /// The fundamental matrix in twists and their rates (over the fundamental frequency) from 0 to
+    /// `end`.
     pub(super) fn monodromy(
         &mut self,
         equations: &EquationsOfMotion,
         orbit: &Orbit<'_>,
         end: f64,
     ) -> Result<Matrix, halfshaft_numerics::Error> {
-        self.reference_speed = orbit.speed;
-        self.start(equations);
-        let mut breaks = Vec::new();
-        for (connection, twist) in orbit.twists {
-            if let Some(pieces) = &self.laws[*connection] {
-                breaks.extend(passages(pieces, orbit.set, twist, orbit.speed, end).times);
-            }
+        // Panels as wide as the matrix where it is small, else as wide as keeps the work in the cache.
+        match self.columns {
+            0..=2 => self.run::<2>(equations, orbit, end),
+            3..=4 => self.run::<4>(equations, orbit, end),
+            5..=8 => self.run::<8>(equations, orbit, end),
+            _ => self.run::<16>(equations, orbit, end),
         }
-        breaks.push(end);
-        breaks.sort_by(f64::total_cmp);
+    }
+
+    fn run<const W: usize>(
+        &self,
+        equations: &EquationsOfMotion,
+        orbit: &Orbit<'_>,
+        end: f64,
+    ) -> Result<Matrix, halfshaft_numerics::Error> {
+        let mut panels = Panels::<W>::new(equations, self.columns, orbit.speed);
+        panels.start(equations, self.with_speed);
         let mut t = 0.0;
         let mut steps = 0;
-        for goal in breaks {
+        let mut next = 0.0;
+        for goal in self.stops(orbit, end) {
             if goal - t <= 1e-13 * end {
                 continue;
             }
             let pieces = self.active(orbit, f64::midpoint(t, goal));
             while t < goal {
-                let tangents = self.tangents(equations, orbit, &pieces, t);
-                self.recur(equations, &tangents);
-                let step = self.step_length().min(goal - t);
+                if next == 0.0 {
+                    let tangents = self.tangents(equations, orbit, &pieces, t, goal - t);
+                    next = panels.longest_step(equations, &tangents);
+                }
+                let left = goal - t;
                 // A sliver left over would cost a step of its own.
-                let step = if goal - t - step < 1e-3 * step { goal - t } else { step };
-                self.advance(step);
-                t = if step == goal - t { goal } else { t + step };
+                let mut step = if next > 0.8 * left { left.min(1.2 * next) } else { next };
+                let tangents = self.tangents(equations, orbit, &pieces, t, step);
+                let reach = panels.step(equations, &tangents, &mut step);
+                t = if step == left { goal } else { t + step };
+                next = CAUTION * reach;
                 steps += 1;
                 if steps > MOST_STEPS || !step.is_finite() || step <= 0.0 {
-                    return Err(halfshaft_numerics::ode::Stop::StepLimit {
-                        time: t,
-                        limit: MOST_STEPS,
-                    }
-                    .into());
+                    let stop =
+                        halfshaft_numerics::ode::Stop::StepLimit { time: t, limit: MOST_STEPS };
+                    return Err(stop.into());
                 }
             }
         }
-        Ok(self.finish(equations))
+        Ok(panels.finish(equations, self.with_speed))
+    }
+
+    /// Times at which a twist passes a break of its law, and the end.
+    fn stops(&self, orbit: &Orbit<'_>, end: f64) -> Vec<f64> {
+        let mut stops = Vec::new();
+        for (connection, twist) in orbit.twists {
+            if let Some(pieces) = &self.laws[*connection] {
+                stops.extend(passages(pieces, orbit.set, twist, orbit.speed, end).times);
+            }
+        }
+        stops.push(end);
+        stops.sort_by(f64::total_cmp);
+        stops
     }
 
     /// The piece of each nonlinear law that the twist is on at time `t`.
@@ -169,6 +164,7 @@ impl Variational {
         orbit: &Orbit<'_>,
         pieces: &[Option<Piece>],
         t: f64,
+        reach: f64,
     ) -> Vec<Tangent> {
         let zero = [0.0; DEGREE + 1];
         let mut tangents: Vec<Tangent> = (equations.connections.iter())
@@ -185,196 +181,31 @@ impl Variational {
             let tangent = &mut tangents[*connection];
             expand(orbit.set, twist, orbit.speed, t, &mut x);
             stiffness(piece, &x, &mut tangent.stiffness);
-            tangent.stiffness_terms = terms(&tangent.stiffness);
+            tangent.stiffness_terms = terms(&tangent.stiffness, reach);
             if let Some(friction) = &equations.connections[*connection].friction {
                 friction_slope(friction, &x, &mut tangent.damping);
                 tangent.damping[0] += equations.connections[*connection].damping;
-                tangent.damping_terms = terms(&tangent.damping);
+                tangent.damping_terms = terms(&tangent.damping, reach);
             }
         }
         tangents
     }
-
-    /// Unit twists, then unit rates (times the reference speed), as group angles and speeds.
-    fn start(&mut self, equations: &EquationsOfMotion) {
-        let (groups, columns) = (equations.groups(), self.columns);
-        let tree = equations.network.tree.len();
-        self.angles.fill(0.0);
-        let mut unit = vec![0.0; tree];
-        let mut column_of = vec![0.0; groups];
-        for column in 0..2 * tree {
-            let (power, edge) = (column / tree, column % tree);
-            unit.fill(0.0);
-            unit[edge] = if power == 0 { 1.0 } else { self.reference_speed };
-            equations.group_angles(&unit, &mut column_of);
-            if let Some(rigid) = &equations.rigid {
-                let mean = rigid.mean(&column_of);
-                column_of.iter_mut().zip(&rigid.speeds).for_each(|(q, r)| *q -= mean * r);
-            }
-            for (group, value) in column_of.iter().enumerate() {
-                self.angles[(power * groups + group) * columns + column] = *value;
-            }
-        }
-        if let (true, Some(rigid)) = (self.with_speed, &equations.rigid) {
-            for (group, r) in rigid.speeds.iter().enumerate() {
-                self.angles[(groups + group) * columns + 2 * tree] = self.reference_speed * r;
-            }
-        }
-    }
-
-    /// All Taylor coefficients of the columns from those of powers 0 and 1.
-    fn recur(&mut self, equations: &EquationsOfMotion, tangents: &[Tangent]) {
-        let (groups, n) = (equations.groups(), self.columns);
-        let plane = groups * n;
-        for power in 0..DEGREE - 1 {
-            self.net.fill(0.0);
-            for (index, (connection, tangent)) in
-                equations.connections.iter().zip(tangents).enumerate()
-            {
-                let store = index * (DEGREE + 1) * n;
-                if power == 0 {
-                    self.twist_row(connection, store, 0, plane);
-                }
-                self.twist_row(connection, store, power + 1, plane);
-                self.torque.fill(0.0);
-                for j in 0..tangent.stiffness_terms.min(power + 1) {
-                    let from = store + (power - j) * n;
-                    axpy(tangent.stiffness[j], &self.twists[from..from + n], &mut self.torque);
-                }
-                for j in 0..tangent.damping_terms.min(power + 1) {
-                    let from = store + (power - j + 1) * n;
-                    let factor = tangent.damping[j] * (power - j + 1) as f64;
-                    if factor != 0.0 {
-                        axpy(factor, &self.twists[from..from + n], &mut self.torque);
-                    }
-                }
-                if let Some((group, ratio)) = connection.from {
-                    axpy(-ratio, &self.torque, &mut self.net[group * n..(group + 1) * n]);
-                }
-                if let Some((group, ratio)) = connection.to {
-                    axpy(ratio, &self.torque, &mut self.net[group * n..(group + 1) * n]);
-                }
-            }
-            let (known, next) = self.angles.split_at_mut((power + 2) * plane);
-            let rates = &known[(power + 1) * plane..];
-            let scale = 1.0 / ((power + 1) * (power + 2)) as f64;
-            for group in 0..groups {
-                let rows = group * n..(group + 1) * n;
-                let net = &mut self.net[rows.clone()];
-                let damping = equations.ground_damping[group];
-                if self.damped && damping != 0.0 {
-                    axpy(-damping * (power + 1) as f64, &rates[rows.clone()], net);
-                }
-                let factor = scale * self.yielding[group];
-                next[rows].iter_mut().zip(net).for_each(|(q, net)| *q = factor * *net);
-            }
-        }
-    }
-
-    /// Twist coefficients of one power of one connection, from the angles.
-    fn twist_row(
-        &mut self,
-        connection: &halfshaft_dynamics::Connection,
-        store: usize,
-        power: usize,
-        plane: usize,
-    ) {
-        let n = self.columns;
-        let row = &mut self.twists[store + power * n..store + (power + 1) * n];
-        let angle = |group: usize| {
-            let from = power * plane + group * n;
-            &self.angles[from..from + n]
-        };
-        match (connection.from, connection.to) {
-            (Some((a, ra)), Some((b, rb))) => {
-                for ((x, a), b) in row.iter_mut().zip(angle(a)).zip(angle(b)) {
-                    *x = ra * a - rb * b;
-                }
-            }
-            (Some((a, ra)), None) => row.iter_mut().zip(angle(a)).for_each(|(x, a)| *x = ra * a),
-            (None, Some((b, rb))) => row.iter_mut().zip(angle(b)).for_each(|(x, b)| *x = -rb * b),
-            (None, None) => row.fill(0.0),
-        }
-    }
-
-    /// The step after which the last two terms are rounding beside the first.
-    fn step_length(&self) -> f64 {
-        let plane = self.net.len();
-        let size = |power: usize| {
-            let terms = &self.angles[power * plane..(power + 1) * plane];
-            terms.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
-        };
-        let scale = size(0).max(size(1) / self.reference_speed);
-        let reach = |power: usize| {
-            let last = size(power);
-            if last == 0.0 {
-                return f64::INFINITY;
-            }
-            (ROUNDING * scale / last).powf(1.0 / power as f64)
-        };
-        reach(DEGREE).min(reach(DEGREE - 1))
-    }
-
-    /// Moves angles and speeds on by `step`.
-    fn advance(&mut self, step: f64) {
-        let plane = self.net.len();
-        let (low, high) = self.angles.split_at_mut(2 * plane);
-        let (angle, speed) = low.split_at_mut(plane);
-        // Horner's rule on value and slope at once, from the highest power down.
-        let term = |power: usize| &high[(power - 2) * plane..(power - 1) * plane];
-        self.net.fill(0.0);
-        let value = &mut self.net;
-        let mut slope = vec![0.0; plane];
-        for power in (2..=DEGREE).rev() {
-            for ((value, slope), term) in value.iter_mut().zip(&mut slope).zip(term(power)) {
-                *slope = *slope * step + *value;
-                *value = *value * step + term;
-            }
-        }
-        for (((angle, speed), value), slope) in
-            angle.iter_mut().zip(speed.iter_mut()).zip(value.iter()).zip(&slope)
-        {
-            // q = q0 + q1 t + t² v(t), q' = q1 + 2 t v + t² v'.
-            let rate = *speed;
-            *angle += step * (rate + step * value);
-            *speed = rate + step * (2.0 * value + step * slope);
-        }
-    }
-
-    /// Twists and rates of the columns as a square matrix.
-    fn finish(&self, equations: &EquationsOfMotion) -> Matrix {
-        let (groups, n) = (equations.groups(), self.columns);
-        let tree = equations.network.tree.len();
-        let mut matrix = Matrix::zeros(n, n);
-        let mut values = vec![0.0; groups];
-        for column in 0..n {
-            for power in 0..2 {
-                let scale = if power == 0 { 1.0 } else { 1.0 / self.reference_speed };
-                for (group, value) in values.iter_mut().enumerate() {
-                    *value = scale * self.angles[(power * groups + group) * n + column];
-                }
-                for (edge, shaft) in equations.network.tree.iter().enumerate() {
-                    matrix[(power * tree + edge, column)] = equations.twist(shaft.shaft, &values);
-                }
-                if let (true, true, Some(rigid)) = (power == 1, self.with_speed, &equations.rigid) {
-                    matrix[(2 * tree, column)] = rigid.mean(&values);
-                }
-            }
-        }
-        matrix
-    }
 }
 
-/// Terms of a series until the rest is rounding over any step that the columns allow.
-fn terms(series: &Series) -> usize {
-    1 + series.iter().rposition(|value| *value != 0.0).unwrap_or(0)
-}
-
-#[inline]
-fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += factor * x;
+/// Terms of a series until the rest is rounding over a step of the given length.
+fn terms(series: &Series, reach: f64) -> usize {
+    let mut power = 1.0;
+    let mut largest = 0.0_f64;
+    let mut last = 0;
+    for (index, value) in series.iter().enumerate() {
+        let size = (value * power).abs();
+        largest = largest.max(size);
+        if size > NEGLIGIBLE * largest {
+            last = index;
+        }
+        power *= reach;
     }
+    last + 1
 }
 
 /// Eigenvalues; two by two in closed form.

@@ -43,24 +43,30 @@ impl Skeleton {
     /// The skeleton of a line of which the flagged connections count as nonlinear.
     pub(super) fn new(equations: &EquationsOfMotion, nonlinear: &[bool]) -> Self {
         let groups = equations.groups();
-        let mut graph = Graph::new(groups);
-        let mut keep = vec![false; groups];
-        let mut edge_of = Vec::with_capacity(equations.connections.len());
-        for (connection, nonlinear) in equations.connections.iter().zip(nonlinear) {
-            let ends = [connection.from, connection.to].map(|end| end.map(|(group, _)| group));
-            if *nonlinear {
-                ends.iter().flatten().for_each(|group| keep[*group] = true);
-            }
-            edge_of.push(match ends {
-                [Some(a), Some(b)] if a != b => Some(graph.edge(a, b)),
-                _ => None,
-            });
-        }
+        let (graph, mut keep, edge_of) = Graph::of(equations, nonlinear);
         if !keep.contains(&true) {
             // A linear line: any group can stand for it.
             keep[groups - 1] = true;
         }
-        let steps = graph.eliminate(&keep);
+        Self::reduced(graph, &keep, edge_of, nonlinear)
+    }
+
+    /// The same with no group taken out, for holding the elimination against.
+    #[cfg(test)]
+    pub(super) fn keeping_all(equations: &EquationsOfMotion, nonlinear: &[bool]) -> Self {
+        let (graph, _, edge_of) = Graph::of(equations, nonlinear);
+        Self::reduced(graph, &vec![true; equations.groups()], edge_of, nonlinear)
+    }
+
+    /// Takes out what is not to be kept.
+    fn reduced(
+        mut graph: Graph,
+        keep: &[bool],
+        edge_of: Vec<Option<usize>>,
+        nonlinear: &[bool],
+    ) -> Self {
+        let groups = keep.len();
+        let steps = graph.eliminate(keep);
         let gone: BTreeSet<usize> = steps.iter().map(|step| step.group).collect();
         let kept: Vec<usize> = (0..groups).filter(|group| !gone.contains(group)).collect();
         let mut node_of = vec![None; groups];
@@ -86,6 +92,28 @@ struct Graph {
 impl Graph {
     fn new(groups: usize) -> Self {
         Self { edges: Vec::new(), around: vec![Vec::new(); groups] }
+    }
+
+    /// The graph of a line, which groups are ends of its nonlinear connections, and the edge of each
+    /// connection.
+    fn of(
+        equations: &EquationsOfMotion,
+        nonlinear: &[bool],
+    ) -> (Self, Vec<bool>, Vec<Option<usize>>) {
+        let mut graph = Self::new(equations.groups());
+        let mut ends_of_nonlinear = vec![false; equations.groups()];
+        let mut edge_of = Vec::with_capacity(equations.connections.len());
+        for (connection, nonlinear) in equations.connections.iter().zip(nonlinear) {
+            let ends = [connection.from, connection.to].map(|end| end.map(|(group, _)| group));
+            if *nonlinear {
+                ends.iter().flatten().for_each(|group| ends_of_nonlinear[*group] = true);
+            }
+            edge_of.push(match ends {
+                [Some(a), Some(b)] if a != b => Some(graph.edge(a, b)),
+                _ => None,
+            });
+        }
+        (graph, ends_of_nonlinear, edge_of)
     }
 
     /// The edge between two groups, made where it is missing.

@@ -11,8 +11,9 @@ use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_results::SpecialKind;
 
-use super::problem::{Condition, Failure, Metric};
-use super::stability::{Crossing, Judge, Stability, counted, crossings, test};
+use super::grazing::{Touch, touches};
+use super::problem::{Axis, Condition, Failure, Metric};
+use super::stability::{Crossing, Judge, Stability, counted, crossings, pair_angle, test};
 use super::tracer::{MOST_HARMONICS, Sample, Tracer, refit};
 
 /// A special point between sample `after` and the next.
@@ -29,6 +30,8 @@ pub(crate) struct Special {
     /// Change of the unstable dimension.
     pub(crate) change: Option<i32>,
     pub(crate) note: Option<String>,
+    /// What touches, at a grazing contact.
+    pub(crate) touch: Option<Touch>,
 }
 
 /// A place is settled when more harmonics move it by less than this part.
@@ -37,6 +40,9 @@ const SETTLED: f64 = 1e-11;
 const MOST_ROUNDS: usize = 12;
 /// Halvings until a test function has opposite signs at both ends.
 const MOST_HALVINGS: usize = 40;
+
+/// A pair of multipliers nearer to the real axis than this is none, rad.
+const LEAST_ANGLE: f64 = 1e-5;
 
 /// What is zero at a special point.
 pub(super) enum Test<'q> {
@@ -54,6 +60,16 @@ struct Segment<'s> {
 }
 
 impl Tracer<'_, '_> {
+    /// The response of the branch in the plane across the chord of two samples at a part of it.
+    pub(super) fn on_segment(
+        &mut self,
+        (from, to): (&Sample, &Sample),
+        part: f64,
+        set: &HarmonicSet,
+    ) -> Result<Sample, Failure> {
+        self.between(&Segment { from, to }, part, set)
+    }
+
     /// The response at a part (0 to 1) of the way between two samples, over a set of harmonics.
     fn between(
         &mut self,
@@ -123,7 +139,10 @@ impl Tracer<'_, '_> {
         let mut u = sample.u.clone();
         self.use_set(&sample.set, &mut u, &sample.set);
         let place = self.problem.place_at(sample.p);
-        self.problem.line_at(sample.p)?;
+        if matches!(self.problem.axis, Axis::Parameter(_)) {
+            self.problem.line_at(sample.p)?;
+            *judge = Judge::new(&self.problem.system, judge.method());
+        }
         judge.stability(&self.problem.system, &sample.u, place)
     }
 
@@ -166,7 +185,7 @@ impl Tracer<'_, '_> {
                 (high, at_high) = (middle, value);
             }
         }
-        if !(at_low * at_high <= 0.0) {
+        if at_low * at_high > 0.0 || (at_low * at_high).is_nan() {
             return None;
         }
         let settings = RootSettings {
@@ -189,7 +208,18 @@ impl Tracer<'_, '_> {
         )
         .ok()?;
         let sample = self.between(segment, root.value, set).ok()?;
-        (!failed).then_some((sample, root.value))
+        let genuine = self.is_zero(judge, what, &sample);
+        (!failed && genuine).then_some((sample, root.value))
+    }
+
+    /// Whether a test is truly zero at a response: where multipliers meet on the real axis, away from
+    /// the unit circle, a test may change its sign by a jump.
+    fn is_zero(&mut self, judge: &mut Judge, what: &Test<'_>, sample: &Sample) -> bool {
+        let Test::Crossing(crossing) = what else { return true };
+        let Ok(stability) = self.judge(judge, sample) else { return false };
+        let turned =
+            *crossing != Crossing::Pair || pair_angle(&stability).sin().abs() > LEAST_ANGLE;
+        test(&stability, *crossing).abs() < 1e-6 && turned
     }
 
     /// Locates a zero of a test between two samples; harmonics are added until it stands still.
@@ -206,6 +236,10 @@ impl Tracer<'_, '_> {
         let mut precision = f64::NAN;
         if self.settings.harmonics.is_some() {
             return Some((sample, 1e-13));
+        }
+        if self.shoots() {
+            // Harmonics converge slowly at kinks: shooting takes it from here.
+            return Some((sample, f64::NAN));
         }
         for round in 0..MOST_ROUNDS {
             let more = 2.max(set.highest() / 4).next_multiple_of(2);
@@ -257,6 +291,32 @@ impl Tracer<'_, '_> {
         found
     }
 
+    /// The folds of a branch alone.
+    pub(super) fn folds(&mut self, judge: &mut Judge, samples: &[Sample]) -> Vec<Special> {
+        let mut found = Vec::new();
+        for (after, pair) in samples.windows(2).enumerate() {
+            if pair[0].tangent_p * pair[1].tangent_p >= 0.0 {
+                continue;
+            }
+            let Some((sample, precision)) = self.locate(judge, &Test::Fold, (&pair[0], &pair[1]))
+            else {
+                continue;
+            };
+            found.push(Special {
+                kind: SpecialKind::Fold,
+                after,
+                sample,
+                stability: None,
+                precision,
+                located: true,
+                change: None,
+                note: None,
+                touch: None,
+            });
+        }
+        found
+    }
+
     fn between_pair(
         &mut self,
         judge: &mut Judge,
@@ -275,10 +335,10 @@ impl Tracer<'_, '_> {
         for crossing in &changes {
             match crossing {
                 Crossing::MinusOne => {
-                    wanted.push((SpecialKind::PeriodDoubling, Test::Crossing(*crossing)))
+                    wanted.push((SpecialKind::PeriodDoubling, Test::Crossing(*crossing)));
                 }
                 Crossing::Pair => {
-                    wanted.push((SpecialKind::NeimarkSacker, Test::Crossing(*crossing)))
+                    wanted.push((SpecialKind::NeimarkSacker, Test::Crossing(*crossing)));
                 }
                 // Without the mirror symmetry a multiplier passes 1 at every fold.
                 Crossing::One if mirrored => {
@@ -293,9 +353,19 @@ impl Tracer<'_, '_> {
         let change = i32::try_from(behind.unstable).unwrap_or(0)
             - i32::try_from(before.unstable).unwrap_or(0);
         let alone = wanted.len() == 1;
-        let mut specials = Vec::new();
+        let mut specials = self.grazing(judge, after, (from, to));
+        if specials.len() == 1 && wanted.is_empty() {
+            specials[0].change = Some(change);
+        }
         for (kind, what) in wanted {
             let place = self.locate(judge, &what, (from, to));
+            if place.is_none()
+                && matches!(what, Test::Crossing(Crossing::Pair))
+                && change.abs() != 2
+            {
+                // A pair outside the circle that met on the real axis.
+                continue;
+            }
             let located = place.is_some();
             let (sample, precision) = place.unwrap_or_else(|| (from.clone(), f64::NAN));
             let stability = self.judge(judge, &sample).ok();
@@ -308,6 +378,47 @@ impl Tracer<'_, '_> {
                 located,
                 change: alone.then_some(change),
                 note: None,
+                touch: None,
+            });
+        }
+        specials
+    }
+
+    /// Whether special points of these curves are left to shooting: the excitation speed runs over a
+    /// line with kinks.
+    pub(super) fn shoots(&self) -> bool {
+        matches!(self.problem.axis, Axis::Frequency)
+            && self.problem.place.drive == 1.0
+            && self.problem.system.line.has_kinks()
+    }
+
+    /// Where a twist begins or ceases to touch a switching twist between two samples.
+    fn grazing(
+        &mut self,
+        judge: &mut Judge,
+        after: usize,
+        (from, to): (&Sample, &Sample),
+    ) -> Vec<Special> {
+        if matches!(self.problem.axis, Axis::Parameter(_)) {
+            return Vec::new();
+        }
+        let line = self.problem.system.line.clone();
+        let mut specials = Vec::new();
+        for touch in touches(&line, from, to) {
+            let beyond = |sample: &Sample| touch.beyond(&line, sample);
+            let place = self.locate(judge, &Test::Value(&beyond), (from, to));
+            let Some((sample, precision)) = place else { continue };
+            let stability = self.judge(judge, &sample).ok();
+            specials.push(Special {
+                kind: SpecialKind::GrazingContact,
+                after,
+                note: Some(touch.words(&line, &sample)),
+                sample,
+                stability,
+                precision,
+                located: true,
+                change: None,
+                touch: Some(touch),
             });
         }
         specials

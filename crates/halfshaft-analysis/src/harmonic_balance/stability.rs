@@ -1,5 +1,6 @@
 //! Stability of responses: multipliers, unstable dimension, and which kind of multiplier crosses.
 
+use halfshaft_model::question::StabilityMethod;
 use halfshaft_numerics::Complex;
 
 use super::monodromy::{Orbit, Variational};
@@ -21,6 +22,16 @@ pub(crate) struct Stability {
 pub(crate) const NEUTRAL: f64 = 1e-9;
 
 impl Stability {
+    /// The stability of a response with the given multipliers, which are those of half a period where
+    /// it is mirrored then.
+    pub(crate) fn of(raw: Vec<Complex>, mirrored: bool) -> Self {
+        let squares = |m: &Complex| *m * *m;
+        let (multipliers, half): (Vec<Complex>, Vec<Complex>) =
+            if mirrored { (raw.iter().map(squares).collect(), raw) } else { (raw, Vec::new()) };
+        let unstable = multipliers.iter().filter(|m| m.modulus() > 1.0 + NEUTRAL).count();
+        Self { multipliers, half, unstable }
+    }
+
     pub(crate) fn is_stable(&self) -> bool {
         self.unstable == 0
     }
@@ -45,12 +56,19 @@ pub(super) enum Crossing {
 /// Finds multipliers of responses of one line.
 pub(super) struct Judge {
     variational: Variational,
+    method: StabilityMethod,
 }
 
 impl Judge {
-    pub(super) fn new(system: &HarmonicSystem) -> Self {
+    pub(super) fn new(system: &HarmonicSystem, method: StabilityMethod) -> Self {
         let line = &system.line;
-        Self { variational: Variational::new(&line.equations, &line.skeleton.nonlinear) }
+        let variational = Variational::new(&line.equations, &line.skeleton.nonlinear);
+        Self { variational, method }
+    }
+
+    /// How it finds them.
+    pub(super) fn method(&self) -> StabilityMethod {
+        self.method
     }
 
     /// The stability of a response.
@@ -71,17 +89,14 @@ impl Judge {
         let speed = system.fundamental(place);
         let orbit = Orbit { set: &system.set, speed, twists: &twists };
         let equations = &system.line.equations;
-        let raw =
-            self.variational.multipliers(equations, &orbit).map_err(|_| Failure::NotConverged)?;
-        let squares = |m: &Complex| *m * *m;
-        let (multipliers, half) = if system.set.is_odd() {
-            (raw.iter().map(squares).collect(), raw)
-        } else {
-            (raw, Vec::new())
+        let raw = match self.method {
+            StabilityMethod::Monodromy => self
+                .variational
+                .multipliers(equations, &orbit)
+                .map_err(|_| Failure::NotConverged)?,
+            StabilityMethod::Hill => super::hill::multipliers(equations, &orbit)?,
         };
-        let multipliers: Vec<Complex> = multipliers;
-        let unstable = multipliers.iter().filter(|m| m.modulus() > 1.0 + NEUTRAL).count();
-        Ok(Stability { multipliers, half, unstable })
+        Ok(Stability::of(raw, system.set.is_odd()))
     }
 }
 
@@ -96,7 +111,7 @@ pub(super) fn test(stability: &Stability, crossing: Crossing) -> f64 {
             nearest(list.iter().filter(real).map(|m| m.re - 1.0))
         }
         Crossing::MinusOne => {
-            nearest(stability.multipliers.iter().filter(real).map(|m| m.re + 1.0)) * -1.0
+            -nearest(stability.multipliers.iter().filter(real).map(|m| m.re + 1.0))
         }
         Crossing::Pair => {
             let pairs = stability.multipliers.iter().filter(|m| m.im > 0.0);

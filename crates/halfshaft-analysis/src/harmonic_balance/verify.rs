@@ -2,28 +2,24 @@
 
 use halfshaft_numerics::fourier;
 use halfshaft_numerics::observer::{Observer, Part};
-use halfshaft_numerics::ode::System;
-use halfshaft_numerics::ode::periodic::{PeriodicSettings, find_orbit};
 use halfshaft_results::{Reason, ResonanceResult, SpecialKind, Termination, VerifiedPoint};
 
 use super::answer::{Setting, reference};
 use super::branches::{Collected, TracedBranch};
 use super::channels::group_series;
+use super::orbits::state_of;
 use super::system::{HarmonicSystem, Place};
 use super::tracer::Sample;
-use crate::equilibrium::{self, RunningState};
 use crate::error::{AnalysisError, Doing};
-use crate::verification::ElasticMotion;
+use crate::shooting::{Lost, Orbit, Sampled, Shooter, Turn};
 
 /// Samples of each branch that are checked, beside those next to what is telling.
 const SPREAD: usize = 8;
 /// The same for large lines, where a check costs the cube of the number of groups.
-const SPREAD_LARGE: usize = 2;
-const LARGE: usize = 8;
-/// Samples of an orbit at least, and for each period of the excitation.
-const ORBIT_SAMPLES: usize = 512;
-/// Steps of the integration over one period at most.
-const MOST_STEPS: usize = 20_000;
+const SPREAD_LARGE: usize = 3;
+const LARGE: usize = 24;
+/// Samples of an orbit for each period of the excitation.
+const ORBIT_SAMPLES: usize = 1024;
 
 /// Checks chosen samples of all branches.
 pub(super) fn verify(
@@ -45,15 +41,26 @@ pub(super) fn verify(
             break;
         }
         match check(setting, branch, *at)? {
-            Some(point) => result.verification.push(point),
-            None => result.header.warnings.push(format!(
+            Ok(point) => result.verification.push(point),
+            Err(lost) => result.header.warnings.push(format!(
                 "no periodic motion of the full equations was found near the response at {:.6} rad/s on \
-                 the branch from the {}",
-                branch.samples[*at].p, branch.origin
+                 the branch from the {}: {}",
+                branch.samples[*at].p,
+                branch.origin,
+                why(lost)
             )),
         }
     }
     Ok(())
+}
+
+fn why(lost: Lost) -> &'static str {
+    match lost {
+        Lost::Chattering => "a contact chatters, closing and opening thousands of times a period",
+        Lost::RanAway => "the motion runs away within the period",
+        Lost::NotConverged => "Newton's method did not converge",
+        Lost::Singular => "the orbit is not isolated",
+    }
 }
 
 /// Indices of samples to check: spread over the branch, its largest, and those beside its folds.
@@ -87,43 +94,32 @@ fn check(
     setting: &Setting,
     branch: &TracedBranch,
     at: usize,
-) -> Result<Option<VerifiedPoint>, AnalysisError> {
+) -> Result<Result<VerifiedPoint, Lost>, AnalysisError> {
     let (sample, stability) = (&branch.samples[at], &branch.stability[at]);
     let equations = &setting.line.equations;
-    let place = Place { frequency: sample.p, drive: 1.0 };
-    let period = std::f64::consts::TAU / (branch.base * sample.p);
-    let mut motion = ElasticMotion::new(equations, sample.p);
-    let guess = state(setting, branch, sample, place, &motion);
-    let mut settings = PeriodicSettings::default();
-    let size = guess.iter().take(motion.twists()).fold(0.0_f64, |a, b| a.max(b.abs()));
-    let speed = size * branch.base * sample.p * f64::from(branch.periods);
-    let sizes = |k: usize| if k < motion.twists() { size.max(1e-9) } else { speed.max(1e-9) };
-    settings.newton.typical = (0..guess.len()).map(sizes).collect();
-    settings.integration.step_limit = MOST_STEPS;
-    let orbit = find_orbit(&mut motion, 0.0, period, &guess, &settings);
-    let Ok(orbit) = orbit else { return Ok(None) };
-    if !orbit.report.converged.is_converged() {
-        return Ok(None);
-    }
-    let samples = orbit
-        .sample(&mut motion, ORBIT_SAMPLES * branch.periods as usize, &settings.integration)
-        .doing("sampling a periodic orbit")?;
+    // The whole period, whatever harmonics know of its symmetry.
+    let mut shooter = Shooter::new(equations, branch.base, sample.p, false);
+    let guess = state_of(&setting.line, branch.base, sample, &shooter.coordinates());
+    let orbit = match shooter.at(&guess, sample.p) {
+        Ok(orbit) => orbit,
+        Err(lost) => return Ok(Err(lost)),
+    };
     let name = reference(setting);
     let shaft = equations.connection(name).unwrap_or(0);
-    let tree = equations.network.tree.len();
-    let twist: Vec<f64> = (0..samples.columns())
-        .map(|column| {
-            let twists: Vec<f64> = (0..tree).map(|edge| samples[(edge, column)]).collect();
-            equilibrium::all_twists(equations, &twists)[shaft]
-        })
-        .collect();
+    let (twist, amplitude) = match seen(&mut shooter, &orbit, shaft, branch.periods as usize) {
+        Ok(seen) => seen,
+        Err(lost) => return Ok(Err(lost)),
+    };
+    let multipliers = match orbit.multipliers() {
+        Ok(multipliers) => multipliers,
+        Err(lost) => return Ok(Err(lost)),
+    };
     let harmonic = fourier::harmonic(&twist, branch.periods as usize)
         .doing("taking the harmonic of an orbit")?
         .modulus;
-    let amplitude = fourier::half_peak_to_peak(&twist).doing("measuring an orbit")?;
     let predicted = predicted(setting, branch, sample, shaft);
-    let largest = orbit.multipliers.iter().map(|m| m.modulus()).fold(0.0, f64::max);
-    Ok(Some(VerifiedPoint {
+    let largest = multipliers.first().map_or(0.0, |m| m.modulus());
+    Ok(Ok(VerifiedPoint {
         frequency: sample.p,
         channel: format!("{name}.twist"),
         predicted,
@@ -138,34 +134,32 @@ fn check(
     }))
 }
 
-/// The state at time 0: twists and rates of the tree, and the speed as a whole where it counts.
-fn state(
-    setting: &Setting,
-    branch: &TracedBranch,
-    sample: &Sample,
-    place: Place,
-    motion: &ElasticMotion<'_>,
-) -> Vec<f64> {
-    let equations = &setting.line.equations;
-    let mut system = HarmonicSystem::new(setting.line.clone(), sample.set.clone(), branch.base);
-    let series = group_series(&mut system, &sample.u, place);
-    let m = sample.set.coefficients();
-    let speed = branch.base * place.frequency;
-    let (mut angles, mut speeds) = (Vec::new(), Vec::new());
-    for coefficients in series.chunks_exact(m) {
-        let (value, slope) = sample.set.evaluate(coefficients, 0.0);
-        angles.push(value);
-        speeds.push(speed * slope);
-    }
-    let mut state = vec![0.0; motion.dimension()];
-    for (index, edge) in equations.network.tree.iter().enumerate() {
-        state[index] = equations.twist(edge.shaft, &angles);
-        state[motion.twists() + index] = equations.twist(edge.shaft, &speeds);
-    }
-    if let (Some(rigid), true) = (&equations.rigid, motion.dimension() > 2 * motion.twists()) {
-        state[2 * motion.twists()] = rigid.mean(&speeds) + RunningState::of(equations).speed;
-    }
-    state
+/// Samples of a twist over the period of an orbit, and half of its peak to peak.
+fn seen(
+    shooter: &mut Shooter<'_>,
+    orbit: &Orbit,
+    shaft: usize,
+    periods: usize,
+) -> Result<(Vec<f64>, f64), Lost> {
+    let equations = shooter.equations();
+    let count = ORBIT_SAMPLES * periods;
+    let mut sampled = Sampled::new(equations.groups(), count, shooter.period(orbit.frequency));
+    let mut turns: Vec<Turn> = Vec::new();
+    shooter.watch(orbit, |step| {
+        sampled.see(step);
+        step.turns(shaft, &mut turns);
+    })?;
+    let mut angles = vec![0.0; equations.groups()];
+    let twist: Vec<f64> = (0..sampled.angles[0].len())
+        .map(|at| {
+            angles.iter_mut().zip(&sampled.angles).for_each(|(q, list)| *q = list[at]);
+            equations.twist(shaft, &angles)
+        })
+        .collect();
+    let all = || twist.iter().copied().chain(turns.iter().map(|turn| turn.twist));
+    let (top, bottom) =
+        (all().fold(f64::NEG_INFINITY, f64::max), all().fold(f64::INFINITY, f64::min));
+    Ok((twist, 0.5 * (top - bottom)))
 }
 
 fn predicted(setting: &Setting, branch: &TracedBranch, sample: &Sample, shaft: usize) -> f64 {

@@ -130,7 +130,7 @@ impl ShockProblem<'_> {
         recorder: &crate::time_response::Recorder<'_>,
     ) {
         for (index, connection) in self.equations.connections.iter().enumerate() {
-            let limits = equilibrium::capacity(&connection.law);
+            let limits = equilibrium::snap_limits(&connection.law);
             let channel = recorder.channels().of_connection(index, ChannelQuantity::Twist);
             let twists = &history[channel];
             let largest = twists.iter().copied().fold(f64::NEG_INFINITY, f64::max);

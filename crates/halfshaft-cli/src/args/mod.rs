@@ -53,14 +53,15 @@ pub struct Arguments {
 
 /// What can be done.
 #[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "one is made a run, and boxes would hide the flags")]
 pub enum Command {
     #[command(flatten)]
     Ask(Ask),
     /// Everything about a driveline in one self-contained HTML page
     ///
     /// Summary in plain words first, then static, modes, shock, resonance and fold curves with
-    /// figures to zoom and read off, and the closed forms held against integration. Without --out it
-    /// is report.html.
+    /// figures to zoom and read off; closed form, first harmonic, harmonic balance and integration
+    /// stand side by side with their differences in numbers. Without --out it is report.html.
     #[command(after_help = "Examples:
   halfshaft report                               the built-in example, in report.html
   halfshaft report my-line.toml --out line.html

@@ -41,6 +41,17 @@ pub enum TorqueLaw {
     Table(TableLaw),
 }
 
+/// Share of a swing's damping that acts in contact, see [`TorqueLaw::contact_share`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactShare {
+    /// From 0, never in contact, to 1.
+    pub share: f64,
+    /// Derivative by the mean twist, 1/rad.
+    pub by_mean: f64,
+    /// Derivative by the amplitude, 1/rad.
+    pub by_amplitude: f64,
+}
+
 /// Calls one method of whichever law it is.
 macro_rules! of_each {
     ($law:expr, $name:ident => $call:expr) => {
@@ -194,6 +205,31 @@ impl TorqueLaw {
                 let cubic = |(origin, coefficients)| (origin, Polynomial::new(coefficients));
                 Pieces::new(law.points(), law.cubic_pieces().map(cubic))
             }
+        }
+    }
+
+    /// Share of viscous damping that acts over a swing `x = mean + amplitude cos φ` (rad) where the
+    /// damping acts in contact only: the first-harmonic damping torque over that of a damper that
+    /// always acts, with its derivatives; in closed form.
+    pub fn contact_share(&self, mean: f64, amplitude: f64) -> ContactShare {
+        // 2 ⟨sin² φ⟩ over the arcs in contact is the gain of flanks of unit stiffness.
+        let unit = PolynomialLaw::new([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let flanks = match self {
+            Self::Clearance(law) => {
+                Self::Clearance(ClearanceLaw::new(2.0 * law.half_gap(), &unit, 0.0))
+            }
+            Self::OneSided(law) => {
+                Self::OneSided(OneSidedContact::new(law.contact_twist(), &unit, 0.0))
+            }
+            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) => {
+                return ContactShare { share: 1.0, by_mean: 0.0, by_amplitude: 0.0 };
+            }
+        };
+        let flanks = flanks.describing_function(mean, amplitude);
+        ContactShare {
+            share: flanks.gain,
+            by_mean: flanks.gain_by_mean,
+            by_amplitude: flanks.gain_by_amplitude,
         }
     }
 

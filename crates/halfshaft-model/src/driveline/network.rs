@@ -83,6 +83,10 @@ impl Network {
             let [Some((from, from_ratio)), Some((to, to_ratio))] = self.ends[*index] else {
                 return None;
             };
+            // Speeds are those of the tree, which does not reach what floats.
+            if self.unreached.binary_search(&from).is_ok() {
+                return None;
+            }
             let (from_speed, to_speed) = (speeds[from] * from_ratio, speeds[to] * to_ratio);
             if (from_speed - to_speed).abs() <= SPEED_TOLERANCE * from_speed.abs() {
                 return None;

@@ -156,9 +156,9 @@ pub static SHAFT: TableSpec = TableSpec {
             "clearance",
             QuantityKind::Angle,
             Sign::NonNegative,
-            "Total backlash: no torque while |x| is less than half of it; outside, the polynomial acts \
-             on the penetration |x| - clearance/2, with the sign of x. A mean torque moves the \
-             working point onto a flank by itself. Optional.",
+            "Total backlash: no torque while the twist is less than half of it to either side; beyond, \
+             the polynomial acts on the penetration, with the sign of the twist. A mean torque moves \
+             the working point onto a flank by itself. Optional.",
         ),
         quantity(
             "contact",

@@ -61,7 +61,7 @@ fn nested(page: &mut String, key: &KeySpec) {
     match key.value {
         ValueSpec::Tables(spec) => section(page, spec, &format!("`[[{}]]`", key.name)),
         ValueSpec::Table(spec) | ValueSpec::TableOrText(spec) => {
-            section(page, spec, &format!("`{} = {{ ... }}`", key.name))
+            section(page, spec, &format!("`{} = {{ ... }}`", key.name));
         }
         _ => {}
     }

@@ -104,8 +104,14 @@ impl Reader<'_> {
                 self.refuse("stability", text.stability.as_deref(), message, hint);
             }
         }
-        if method != ResonanceMethod::Averaged && text.frequency.is_some() {
-            let message = "the speeds are given, and this method takes all modes together";
+        if method == ResonanceMethod::FirstHarmonic {
+            let message = "one harmonic is not held against integration";
+            let hint = "ask --method harmonic-balance --verify, which is; `halfshaft report` sets both \
+                        side by side";
+            self.refuse("verify", text.verify.then_some(""), message, hint);
+        }
+        if method == ResonanceMethod::HarmonicBalance && text.frequency.is_some() {
+            let message = "the speeds are given, and harmonic balance takes all modes together";
             let hint = "leave it out; without --frequency it chooses the range of speeds";
             self.refuse("mode", text.mode.as_deref(), message, hint);
         }

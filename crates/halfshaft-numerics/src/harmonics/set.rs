@@ -76,16 +76,21 @@ impl HarmonicSet {
     /// The series at phase `theta`: value and derivative by the phase.
     pub fn evaluate(&self, coefficients: &[f64], theta: f64) -> (f64, f64) {
         let (mut value, mut slope) = (0.0, 0.0);
+        // Powers of exp(iθ): one sine and cosine for all orders.
+        let (sin1, cos1) = theta.sin_cos();
+        let (mut sin, mut cos, mut at) = (0.0, 1.0, 0);
         for (order, place) in self.places() {
+            while at < order {
+                (sin, cos) = (sin * cos1 + cos * sin1, cos * cos1 - sin * sin1);
+                at += 1;
+            }
             if order == 0 {
                 value += coefficients[place];
                 continue;
             }
-            let n = order as f64;
-            let (sin, cos) = (n * theta).sin_cos();
             let (a, b) = (coefficients[place], coefficients[place + 1]);
             value += a * cos + b * sin;
-            slope += n * (b * cos - a * sin);
+            slope += order as f64 * (b * cos - a * sin);
         }
         (value, slope)
     }

@@ -1,6 +1,8 @@
 //! What is told of a line.
 
-use halfshaft_results::{CheckResult, CheckedPulse, CheckedShaft, CheckedTorque, ReducedInertia};
+use halfshaft_results::{
+    CheckResult, CheckedMesh, CheckedPulse, CheckedShaft, CheckedTorque, ReducedInertia,
+};
 
 use super::{Account, Grid, chain};
 use crate::words::{MISSING, counted, list, number, plain, quantity};
@@ -53,7 +55,8 @@ pub(crate) fn nonlinearities(check: &CheckResult) -> String {
     let mut kinds: Vec<(String, Vec<String>)> = Vec::new();
     for shaft in check.shafts.iter().filter(|shaft| !shaft.nonlinear_terms.is_empty()) {
         let terms = shaft.nonlinear_terms.iter().map(|term| {
-            format!("{} term, {}", plain(&term.key), plain(&term.effect).replace(':', ";"))
+            let noun = if is_power(&term.key) { " term" } else { "" };
+            format!("{}{noun}, {}", plain(&term.key), plain(&term.effect).replace(':', ";"))
         });
         let kind = list(&terms.collect::<Vec<_>>());
         match kinds.iter_mut().find(|(known, _)| *known == kind) {
@@ -61,12 +64,22 @@ pub(crate) fn nonlinearities(check: &CheckResult) -> String {
             None => kinds.push((kind, vec![plain(&shaft.name)])),
         }
     }
+    let loose = check.gears.iter().filter(|gear| gear.mesh.is_some_and(|m| m.clearance > 0.0));
+    let loose: Vec<String> = loose.map(|gear| plain(&gear.name)).collect();
+    if !loose.is_empty() {
+        kinds.push(("backlash of the mesh".to_owned(), loose));
+    }
     if kinds.is_empty() {
         return "All shafts are linear: nothing here can fold or jump.".to_owned();
     }
     let told: Vec<String> =
         kinds.iter().map(|(kind, shafts)| format!("{} ({kind})", list(shafts))).collect();
     format!("Nonlinear: {}.", told.join("; "))
+}
+
+/// Whether a term of a law is a power of the twist.
+fn is_power(key: &str) -> bool {
+    ["quadratic", "cubic", "quintic", "septic"].contains(&key)
 }
 
 /// Where each reduced inertia comes from.
@@ -119,7 +132,20 @@ fn gears(check: &CheckResult) -> Grid {
         .words("output", gears.iter().map(|gear| &gear.output))
         .words("ratio (input over output speed)", gears.iter().map(|gear| number(gear.ratio, 5)))
         .words("ratios offered", gears.iter().map(|gear| others(&gear.ratios)))
+        .words("mesh", gears.iter().map(|gear| gear.mesh.as_ref().map_or_else(String::new, mesh)))
         .without_empty_columns()
+}
+
+/// "6000 N·m/rad, 4 N·m·s/rad, backlash 0.02 rad".
+fn mesh(mesh: &CheckedMesh) -> String {
+    let mut parts = vec![quantity(mesh.stiffness, 6, "N·m/rad")];
+    if mesh.damping != 0.0 {
+        parts.push(quantity(mesh.damping, 5, "N·m·s/rad"));
+    }
+    if mesh.clearance != 0.0 {
+        parts.push(format!("backlash {}", quantity(mesh.clearance, 5, "rad")));
+    }
+    parts.join(", ")
 }
 
 fn shafts(check: &CheckResult) -> Grid {
@@ -175,7 +201,15 @@ pub(crate) fn oscillation(torque: &CheckedTorque) -> String {
             format!("{amplitude} at order {}", number(harmonic.order, 4))
         })
         .collect();
-    list(&parts)
+    let told = list(&parts);
+    match &torque.growth {
+        Some(growth) if !parts.is_empty() => format!(
+            "{told} at {}, growing with the speed to the power {}",
+            quantity(growth.reference_speed, 5, "rad/s"),
+            number(growth.power, 4)
+        ),
+        _ => told,
+    }
 }
 
 /// "half-sine of 120 N·m from 0 s for 0.05 s (3.82 N·m·s)".

@@ -33,6 +33,16 @@ pub(crate) fn plane(result: &FoldsResult, explain: bool) -> Account {
     account
 }
 
+/// What the closed form says of a plane that another method leads.
+pub(crate) fn beside(closed: Option<&FoldsResult>) -> Account {
+    let mut account = Account::default();
+    if let Some(plane) = closed {
+        let told = thresholds(plane).into_iter().next().unwrap_or_default();
+        account.text([format!("By the closed form of one mode: {told}")]);
+    }
+    account
+}
+
 /// Name of the parameter in words.
 pub(crate) fn parameter(result: &FoldsResult) -> String {
     column_label(&result.parameter)

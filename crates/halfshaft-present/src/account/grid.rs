@@ -93,6 +93,14 @@ impl Grid {
         self
     }
 
+    /// Adds a column of numbers that are written out already, each in its own way.
+    pub(crate) fn figures(mut self, name: &str, cells: impl IntoIterator<Item = String>) -> Self {
+        let cells = cells.into_iter().map(|cell| shown(&cell)).collect();
+        let name = capital(name);
+        self.columns.push(GridColumn { name, unit: String::new(), numeric: true, cells });
+        self
+    }
+
     /// The tones of the rows.
     pub(crate) fn with_tones(mut self, tones: impl IntoIterator<Item = Tone>) -> Self {
         self.tones = tones.into_iter().collect();

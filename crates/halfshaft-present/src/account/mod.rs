@@ -11,6 +11,7 @@ pub(crate) mod check;
 pub(crate) mod folds;
 pub(crate) mod head;
 pub(crate) mod history;
+pub(crate) mod levels;
 pub(crate) mod methods;
 pub(crate) mod modes;
 pub(crate) mod next;
@@ -131,8 +132,10 @@ pub(crate) fn headers(answer: &Answer) -> Vec<&Header> {
             headers.extend(report.statics.as_ref().map(|part| &part.header));
             headers.extend(report.modes.as_ref().map(|part| &part.header));
             headers.extend(report.shock.as_ref().map(|part| &part.header));
-            headers.extend(report.resonance.as_ref().map(|part| &part.header));
+            let resonances = [&report.resonance, &report.first_harmonic, &report.closed_form];
+            headers.extend(resonances.into_iter().flatten().map(|part| &part.header));
             headers.extend(report.folds.iter().map(|part| &part.header));
+            headers.extend(report.closed_folds.iter().map(|part| &part.header));
         }
         Answer::Study(study) => {
             headers

@@ -2,6 +2,8 @@
 
 use halfshaft_results::{Answer, HistoryResult, ResonanceResult, StaticResult};
 
+use crate::reading::{Method, Reading};
+
 /// A hint at the question that usually follows.
 pub(crate) fn next(answer: &Answer) -> Option<String> {
     let hint = match answer {
@@ -50,14 +52,16 @@ fn after_history(result: &HistoryResult) -> Option<&'static str> {
 }
 
 fn after_resonance(result: &ResonanceResult) -> String {
-    let check = if result.verification.is_empty() {
+    let checked = !result.verification.is_empty();
+    let check = if !checked && Reading::of(result).method != Method::FirstHarmonic {
         "`--verify` to hold this against integration of the full equations, "
     } else {
         ""
     };
-    let damping = result.scaling.first().map_or_else(
+    let channel = result.leading_channel().unwrap_or_default();
+    let damping = channel.strip_suffix(".twist").map_or_else(
         || "ADDRESS=A..B".to_owned(),
-        |scaling| format!("{}.damping=A..B", crate::words::plain(&scaling.shaft)),
+        |shaft| format!("{}.damping=A..B", crate::words::plain(shaft)),
     );
     format!("{check}`halfshaft folds --parameter \"{damping}\"` for where the response folds")
 }

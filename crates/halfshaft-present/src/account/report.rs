@@ -1,4 +1,5 @@
-//! What is told of everything together: the findings. Each analysis has its own account.
+//! What is told of everything together: the findings, and the methods side by side. Each analysis has
+//! its own account.
 
 use halfshaft_results::ReportResult;
 
@@ -11,5 +12,6 @@ pub(crate) fn account(report: &ReportResult) -> Account {
     let findings = findings::of(report);
     account.text([findings::headline(&findings)]);
     account.list(findings.iter().map(Finding::line).collect());
+    account.append(super::levels::account(report));
     account
 }

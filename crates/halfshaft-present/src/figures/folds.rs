@@ -1,11 +1,12 @@
 //! Fold curves in the plane of excitation speed and one parameter.
 
-use halfshaft_results::{FoldsResult, SpecialKind, SpecialPoint, Table};
+use halfshaft_results::{FoldsResult, ReportResult, SpecialKind, SpecialPoint, Table};
 
 use super::axes::{column_axis, speed_axis};
 use super::regions::{Tints, tints};
 use super::{marks, slug};
 use crate::figure::{Colour, Curve, Figure, Label, Line, Panel, Points, Reference, Region, escape};
+use crate::reading::Method;
 use crate::words::{number, quantity, unit};
 
 /// The id of the figure of a plane.
@@ -13,8 +14,20 @@ pub(crate) fn id(result: &FoldsResult) -> String {
     format!("folds-{}", slug(&result.parameter))
 }
 
-/// The figure of a plane.
-pub(super) fn figure(result: &FoldsResult) -> Figure {
+/// The planes of a report by the best method, each with the closed form beside it where another
+/// method leads.
+pub(crate) fn pairs(report: &ReportResult) -> Vec<(&FoldsResult, Option<&FoldsResult>)> {
+    let twin = |plane: &FoldsResult| {
+        report.closed_folds.iter().find(|other| other.parameter == plane.parameter)
+    };
+    let led = |plane: &FoldsResult| report.folds.iter().any(|p| p.parameter == plane.parameter);
+    let main = report.folds.iter().map(|plane| (plane, twin(plane)));
+    let alone = report.closed_folds.iter().filter(|plane| !led(plane)).map(|plane| (plane, None));
+    main.chain(alone).collect()
+}
+
+/// The figure of a plane, with the closed form beside it where it is given.
+pub(super) fn compared(result: &FoldsResult, closed: Option<&FoldsResult>) -> Figure {
     let curves: Vec<(Vec<f64>, Vec<f64>)> =
         result.curves.iter().map(|table| points(table, &result.parameter)).collect();
     let mut y = column_axis(&result.parameter, &result.parameter_unit);
@@ -32,18 +45,30 @@ pub(super) fn figure(result: &FoldsResult) -> Figure {
             panel.with_all(areas(&curves).into_iter().map(region))
         }
     };
+    let method = |plane: &FoldsResult| Method::of(&plane.header).map_or("", Method::words);
+    let name = closed.map_or("fold".to_owned(), |_| format!("fold, {}", method(result)));
     for (x, y) in curves {
-        panel = panel.with(Curve::new("fold", x, y, Colour::PRIMARY));
+        panel = panel.with(Curve::new(name.clone(), x, y, Colour::PRIMARY));
+    }
+    for table in closed.iter().flat_map(|plane| &plane.curves) {
+        let (x, y) = points(table, &result.parameter);
+        let name = format!("fold, {}", closed.map_or("", method));
+        let line = Curve::new(name, x, y, Colour::Orange).with_line(Line::DashDot);
+        panel = panel.with(line.with_width(1.1));
     }
     panel = panel.with_all(special(result)).with_all(own_value(result));
-    if result.curves.is_empty() {
+    if result.curves.is_empty() && closed.is_none_or(|plane| plane.curves.is_empty()) {
         panel = with_remark(panel, result);
     }
     let title = format!(
         "Fold curves over excitation speed and {}",
         escape(&crate::words::column_label(&result.parameter))
     );
-    Figure::new(id(result), title).with_caption(caption(result)).with(panel)
+    let mut text = caption(result);
+    if closed.is_some() {
+        text += " Dash-dot is the closed form of one mode.";
+    }
+    Figure::new(id(result), title).with_caption(text).with(panel)
 }
 
 /// The speeds at which responses were counted: the plane that was searched.

@@ -14,6 +14,7 @@ pub use study::study_figures;
 
 pub(crate) mod folds;
 pub(crate) mod history;
+pub(crate) mod levels;
 pub(crate) mod methods;
 pub(crate) mod modes;
 pub(crate) mod periodic;
@@ -22,9 +23,11 @@ pub(crate) mod statics;
 pub(crate) mod study;
 
 mod axes;
+mod detuned;
 mod marks;
 mod multipliers;
 mod regions;
+mod smooth;
 
 /// The figures of an answer, in the order of reading.
 #[must_use]
@@ -39,7 +42,7 @@ pub fn of(answer: &Answer) -> Vec<Figure> {
             figures
         }
         Answer::Resonance(result) => resonance::figures(result),
-        Answer::Folds(result) => vec![folds::figure(result)],
+        Answer::Folds(result) => vec![folds::compared(result, None)],
         Answer::Study(result) => study_figures(result),
         Answer::Report(report) => of_report(report),
     };
@@ -68,11 +71,24 @@ fn of_report(report: &ReportResult) -> Vec<Figure> {
         figures.extend(history::figures(shock));
         figures.extend(methods::figure(shock));
     }
-    figures.extend(report.resonance.iter().flat_map(resonance::figures));
-    // Of an empty plane a report says so in words.
-    let full = report.folds.iter().filter(|plane| !plane.curves.is_empty());
-    figures.extend(full.map(folds::figure));
+    figures.extend(report.best_resonance().into_iter().flat_map(resonance::figures));
+    figures.extend(levels::figure(report));
+    // The closed form has a section of its own where another method leads.
+    let closed = report.closed_form.iter().filter(|_| report.resonance.is_some());
+    figures.extend(closed.flat_map(resonance::figures));
+    figures.extend(planes(report));
     figures
+}
+
+/// The fold planes of a report, those by two methods in one figure.
+fn planes(report: &ReportResult) -> Vec<Figure> {
+    // Of an empty plane a report says so in words.
+    let full = folds::pairs(report).into_iter();
+    let full = full.filter(|(main, other)| {
+        let curves = other.map_or(0, |other| other.curves.len());
+        !main.curves.is_empty() || curves > 0
+    });
+    full.map(|(main, other)| folds::compared(main, other)).collect()
 }
 
 /// A name as part of an id and of the name of a file: letters, digits, points and hyphens.

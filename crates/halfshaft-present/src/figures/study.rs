@@ -1,12 +1,12 @@
 //! The figures that a study describes.
 
 use halfshaft_results::{
-    Answer, Column, FoldsResult, ItemStyle, ResonanceResult, SpecialPoint, StudyFigureSpec,
-    StudyItem, StudyResult,
+    Answer, Column, FoldsResult, ItemStyle, ModeScaling, ResonanceResult, SpecialPoint,
+    StudyFigureSpec, StudyItem, StudyResult,
 };
 
 use super::axes::{column_axis, name};
-use super::{folds, resonance, slug};
+use super::{detuned, folds, resonance, slug};
 use crate::account::check::minus;
 use crate::account::folds::cusp_points;
 use crate::account::resonance::fold_points;
@@ -35,12 +35,18 @@ fn figure(study: &StudyResult, spec: &StudyFigureSpec) -> Figure {
         .collect();
     let mut panel =
         Panel::new(axis(&items, &spec.x, spec.x_range), axis(&items, &spec.y, spec.y_range));
+    let scaling = items.iter().find_map(|(_, answer)| detuned::scaling(answer));
     let mut colours = 0;
     let mut drawn = Vec::new();
+    let mut known: Vec<(&str, Colour)> = Vec::new();
     for (item, answer) in &items {
-        let drawing = Drawing { spec, item, colour: Colour::index(colours) };
-        let items = drawing.items(answer);
-        colours += usize::from(!items.is_empty());
+        // A second method has the colour of the first one that answers the same question.
+        let first = known.iter().find(|(name, _)| is_second_of(item, name));
+        let colour = first.map_or_else(|| Colour::index(colours), |(_, colour)| *colour);
+        let drawing = Drawing { spec, item, colour, scaling };
+        let items = drawing.items(&detuned::completed(answer, scaling));
+        colours += usize::from(first.is_none() && !items.is_empty());
+        known.push((&item.question, colour));
         drawn.extend(items);
     }
     // The legend names the curves first, then the kinds of points.
@@ -49,6 +55,12 @@ fn figure(study: &StudyResult, spec: &StudyFigureSpec) -> Figure {
     Figure::new(id(&spec.name), escape(&plain(&spec.title)))
         .with_caption(escape(&plain(&spec.caption)))
         .with(panel)
+}
+
+/// Whether a question is another one asked by a second method: "f = 5, harmonic balance" of "f = 5".
+fn is_second_of(item: &StudyItem, name: &str) -> bool {
+    let rest = item.question.strip_prefix(name);
+    item.style == ItemStyle::Second && rest.is_some_and(|rest| rest.starts_with(", "))
 }
 
 /// The axis of a column, with the unit that the first answer gives it.
@@ -109,6 +121,8 @@ struct Drawing<'s> {
     spec: &'s StudyFigureSpec,
     item: &'s StudyItem,
     colour: Colour,
+    /// The scaling of the figure's closed form.
+    scaling: Option<&'s ModeScaling>,
 }
 
 impl Drawing<'_> {
@@ -154,25 +168,23 @@ impl Drawing<'_> {
         }
         items.extend(self.marked(&fold_points(&result.branches), "fold", Marker::Circle));
         if self.shows_reference_twist(result) {
-            items.extend(resonance::verified(result, result.scaling.first(), x));
+            items.extend(resonance::verified(result, self.scaling, x));
         }
         items
     }
 
     /// Whether the vertical axis shows what verification measures.
     fn shows_reference_twist(&self, result: &ResonanceResult) -> bool {
+        let channel = result.leading_channel();
         let twist = |measure: &str| {
-            result
-                .scaling
-                .first()
-                .is_some_and(|scaling| self.spec.y == format!("{}.twist.{measure}", scaling.shaft))
+            channel.as_ref().is_some_and(|channel| self.spec.y == format!("{channel}.{measure}"))
         };
         self.spec.y == "rho" || twist("harmonic1") || twist("amplitude")
     }
 
     fn fold_curves(&self, answer: &Answer, result: &FoldsResult) -> Vec<Item> {
         let mut items = self.curves(answer);
-        if self.spec.y == result.parameter {
+        if self.spec.y == result.parameter && self.item.style == ItemStyle::Line {
             items.splice(0..0, self.areas(&items));
         }
         let cusps: Vec<&SpecialPoint> = cusp_points(result).collect();
@@ -206,6 +218,10 @@ impl Drawing<'_> {
         let labels = places.iter().map(|place| number(told(place), 5)).collect();
         let (xs, ys) = places.into_iter().unzip();
         let points = Points::new(kind, xs, ys, Colour::DANGER).with_marker(marker);
-        Some(points.with_labels(labels).into())
+        // Those of a second method lie beside the first's, which are named.
+        Some(match self.item.style {
+            ItemStyle::Second => Points { size: 4.5, ..points }.unlisted().into(),
+            ItemStyle::Line | ItemStyle::Hidden => points.with_labels(labels).into(),
+        })
     }
 }

@@ -3,8 +3,12 @@
 use halfshaft_results::{ReportResult, StaticResult};
 
 use crate::account::statics;
+use crate::reading::{Method, Reading};
 
 mod jumps;
+mod methods;
+mod periodic;
+mod reserve;
 mod shock;
 mod stability;
 mod standing;
@@ -84,6 +88,7 @@ pub(crate) fn of(report: &ReportResult) -> Vec<Finding> {
     found.extend(shock::shock(report));
     found.extend(vibration::vibration(report));
     found.extend(jumps::jumps(report));
+    found.extend(methods::methods(report));
     found.extend(trust::trust(report));
     found.extend(scope(report));
     found.sort_by_key(|finding| finding.standing);
@@ -101,8 +106,19 @@ fn scope(report: &ReportResult) -> Option<Finding> {
     if gears {
         limits.push("in the gear that the model is in".to_owned());
     }
-    if elastic > 1 {
-        limits.push(format!("resonance and jumps for mode 1 of {elastic}"));
+    let best = report.best_resonance().map(Reading::of);
+    match best {
+        Some(reading) if reading.method != Method::Averaged => {
+            // Other methods take all modes together, as far as the range goes.
+            let range = reading.range().filter(|_| reading.x.is_speed());
+            limits.extend(
+                range.map(|(from, to)| {
+                    format!("resonance and jumps {}", reading.x.between(from, to))
+                }),
+            );
+        }
+        _ if elastic > 1 => limits.push(format!("resonance and jumps for mode 1 of {elastic}")),
+        _ => {}
     }
     let text = format!(
         "Stability, shock, resonance and jumps are judged one by one under the mean torques, {}.",

@@ -2,6 +2,7 @@
 
 use halfshaft_results::{MissingSection, ReportResult};
 
+use super::methods::replaced;
 use super::{Finding, Standing};
 use crate::account::{check::minus, head, modes};
 use crate::words::{capital, frequency_words, list, percent, plain};
@@ -31,7 +32,7 @@ pub(super) fn stability(report: &ReportResult) -> Vec<Finding> {
 /// Sections without an answer, those of one reason together.
 fn open(report: &ReportResult) -> Vec<Finding> {
     let mut groups: Vec<(&MissingSection, Vec<String>)> = Vec::new();
-    for missing in &report.missing {
+    for missing in report.missing.iter().filter(|missing| !replaced(report, missing)) {
         let same = |group: &&mut (&MissingSection, Vec<String>)| {
             group.0.reason == missing.reason && group.0.advice == missing.advice
         };

@@ -7,7 +7,10 @@ use crate::words::{frequency_words, percent, plain, quantity};
 
 /// The largest response of the strongest exciting order.
 pub(super) fn vibration(report: &ReportResult) -> Option<Finding> {
-    let result = report.resonance.as_ref()?;
+    let result = report.best_resonance()?;
+    if result.scaling.is_empty() {
+        return super::periodic::vibration(report, result);
+    }
     let (index, rho) = largest(result)?;
     let scaling = result.scaling.get(index)?;
     let shaft = plain(&scaling.shaft);

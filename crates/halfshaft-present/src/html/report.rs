@@ -8,7 +8,7 @@ use super::blocks;
 use super::figure::{Figures, figure, still};
 use super::shell::Sheet;
 use super::single::{basis, warnings};
-use crate::account::{Account, check, folds, head, modes, resonance, shock, statics};
+use crate::account::{Account, check, folds, head, levels, modes, resonance, shock, statics};
 use crate::findings::{self, COMFORTABLE, Finding, Standing};
 use crate::words::{bound, capital, number, plain};
 use crate::{figures, sketch};
@@ -29,8 +29,11 @@ pub(super) fn sheet(answer: &Answer, report: &ReportResult) -> Sheet {
     add("static", report.statics.as_ref().map(statics::account));
     add("modes", report.modes.as_ref().map(modes::account));
     add("shock", report.shock.as_ref().map(shock::account));
-    add("resonance", report.resonance.as_ref().map(resonance::account));
-    if !report.folds.is_empty() {
+    add("resonance", report.best_resonance().map(resonance::account));
+    add("levels", Some(levels::account(report)).filter(|account| !account.blocks.is_empty()));
+    let closed = report.closed_form.as_ref().filter(|_| report.resonance.is_some());
+    add("closed-form", closed.map(resonance::account));
+    if !report.folds.is_empty() || !report.closed_folds.is_empty() {
         let body = planes(report, &mut left);
         sections.push(Section::new("folds", head::title("folds"), body));
     }
@@ -95,11 +98,12 @@ fn line(report: &ReportResult) -> Markup {
 }
 
 /// Every fold plane under its own heading.
-fn planes(report: &ReportResult, figures: &mut Figures) -> Markup {
+fn planes(report: &ReportResult, left: &mut Figures) -> Markup {
     html! {
-        @for (index, plane) in report.folds.iter().enumerate() {
+        @for (index, (plane, closed)) in figures::folds::pairs(report).into_iter().enumerate() {
             h3 { "Over the " (folds::parameter(plane)) }
-            (blocks::account(&folds::plane(plane, index == 0), figures))
+            (blocks::account(&folds::plane(plane, index == 0), left))
+            (blocks::account(&folds::beside(closed), left))
         }
     }
 }

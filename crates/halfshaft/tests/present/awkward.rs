@@ -124,8 +124,18 @@ fn reports_with_any_part_missing_or_odd_are_shown() {
     let report = the_report(&SCALED).clone();
     // Sections without a header of numbers of their own are shaken above.
     let mut small = report;
-    small.folds.truncate(1);
+    small.closed_folds.truncate(1);
     assert!(shaken(&Answer::Report(Box::new(small))) > 100);
+}
+
+// Source: the same, for answers with everything that harmonic balance can find.
+#[test]
+fn periodic_responses_with_any_part_missing_or_odd_are_shown() {
+    for (name, answer) in super::made::all() {
+        show(&answer, true);
+        let shown = shaken(&answer);
+        assert!(shown > 30, "{name}: only {shown} were still answers");
+    }
 }
 
 // Source: the same, for a study whose figures have names that are alike as names of files.

@@ -30,7 +30,7 @@ pub fn points<'f>(figure: &'f Figure, name: &str) -> Option<&'f Points> {
 }
 
 fn resonance(answer: &Answer) -> &ResonanceResult {
-    the_report(answer).resonance.as_ref().expect("a resonance")
+    the_report(answer).best_resonance().expect("a resonance")
 }
 
 /// Rows of a branch as (speed, swing, stable).

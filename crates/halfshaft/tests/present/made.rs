@@ -6,8 +6,9 @@
 
 use halfshaft::Answer;
 use halfshaft::results::{
-    Branch, Column, Effort, FoldsResult, Header, JumpSpeeds, ModelIdentity, Named, ResonanceResult,
-    ResponseCount, SpecialKind, SpecialPoint, Status, Table, Termination, VerifiedPoint,
+    Branch, Column, Effort, FoldsResult, Header, JumpSpeeds, LevelRow, ModelIdentity, Named,
+    ReportResult, ResonanceResult, ResponseCount, SpecialKind, SpecialPoint, Status, Table,
+    Termination, VerifiedPoint,
 };
 use serde_json::{Value, json};
 
@@ -361,4 +362,104 @@ pub fn all() -> Vec<(&'static str, Answer)> {
         ("parameter", Answer::Resonance(over_a_parameter())),
         ("folds", Answer::Folds(folds_plane())),
     ]
+}
+
+/// The same resonance by another method: speeds and swings a little off, without the scaling that
+/// only the closed form has.
+pub fn another_method(closed: &ResonanceResult, method: &str, off: f64) -> ResonanceResult {
+    let mut other = closed.clone();
+    other.header.settings = json!({ "method": method });
+    other.scaling.clear();
+    for branch in &mut other.branches {
+        for column in &mut branch.columns {
+            shift(&column.name, off, column.values.iter_mut());
+        }
+        branch.columns.retain(|column| !matches!(column.name.as_str(), "sigma" | "rho"));
+        for point in &mut branch.special_points {
+            for (name, value) in &mut point.values {
+                shift(name, off, std::iter::once(value));
+            }
+        }
+    }
+    for peak in &mut other.peaks {
+        for (name, value) in peak.iter_mut() {
+            shift(name, off, std::iter::once(value));
+        }
+    }
+    for point in &mut other.verification {
+        point.predicted = point.integrated * (1.0 + 1e-9);
+        point.relative_difference = 1e-9;
+    }
+    for jump in &mut other.jumps {
+        jump.frequency *= 1.0 + off;
+        jump.rpm *= 1.0 + off;
+    }
+    other
+}
+
+fn shift<'v>(name: &str, off: f64, values: impl Iterator<Item = &'v mut f64>) {
+    let part = match name {
+        "frequency" => 1.0 + off,
+        name if name.contains(".harmonic1") || name.contains(".amplitude") => 1.0 - 3.0 * off,
+        _ => return,
+    };
+    values.for_each(|value| *value *= part);
+}
+
+/// Fold curves by harmonic balance beside those of the closed form.
+fn another_plane(closed: &FoldsResult, off: f64) -> FoldsResult {
+    let mut other = closed.clone();
+    other.scaling = None;
+    other.header.settings["method"] = json!("harmonic-balance");
+    for table in &mut other.curves {
+        for column in table.columns.iter_mut().filter(|column| column.name == closed.parameter) {
+            column.values.iter_mut().for_each(|value| *value *= 1.0 - off);
+        }
+    }
+    for point in &mut other.special_points {
+        if let Some(value) = point.values.get_mut(&closed.parameter) {
+            *value *= 1.0 - off;
+        }
+    }
+    other
+}
+
+/// A report in which every method has an answer, from one in which the closed form has.
+pub fn with_every_method(report: &ReportResult) -> ReportResult {
+    let closed = report.closed_form.as_ref().unwrap();
+    let balance = another_method(closed, "harmonic-balance", 2e-4);
+    let first = another_method(closed, "first-harmonic", 1e-4);
+    let level = |what: &str, unit: &str, own: f64| LevelRow {
+        what: what.to_owned(),
+        unit: unit.to_owned(),
+        closed_form: Some(own),
+        first_harmonic: Some(own * (1.0 + 1e-4)),
+        harmonic_balance: Some(own * (1.0 + 2e-4)),
+        ..LevelRow::default()
+    };
+    let peak = &closed.peaks[0];
+    let mut levels = vec![
+        level("peak: speed", "rad/s", peak["frequency"]),
+        level("peak: twist", "rad", peak["rho"]),
+    ];
+    for (index, fold) in closed.branches.iter().flat_map(|b| &b.special_points).enumerate() {
+        if fold.kind == SpecialKind::Fold {
+            let speed = fold.value("frequency").unwrap();
+            levels.push(level(&format!("fold {index}: speed"), "rad/s", speed));
+        }
+    }
+    levels.extend(closed.verification.iter().map(|point| LevelRow {
+        at: Some(point.frequency),
+        integration: Some(point.integrated),
+        closed_form: Some(point.predicted),
+        harmonic_balance: Some(point.integrated * (1.0 + 1e-9)),
+        ..level("twist", "rad", point.predicted)
+    }));
+    ReportResult {
+        resonance: Some(balance),
+        first_harmonic: Some(first),
+        levels,
+        folds: report.closed_folds.iter().map(|plane| another_plane(plane, 5e-3)).collect(),
+        ..report.clone()
+    }
 }

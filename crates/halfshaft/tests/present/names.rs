@@ -36,8 +36,10 @@ fn parts(answer: &Answer) -> Vec<Answer> {
     parts.extend(report.statics.clone().map(Answer::Static));
     parts.extend(report.modes.clone().map(Answer::Modes));
     parts.extend(report.shock.clone().map(Answer::History));
-    parts.extend(report.resonance.clone().map(Answer::Resonance));
-    parts.extend(report.folds.iter().cloned().map(Answer::Folds));
+    let resonances = [&report.resonance, &report.first_harmonic, &report.closed_form];
+    parts.extend(resonances.into_iter().flatten().cloned().map(Answer::Resonance));
+    let planes = report.folds.iter().chain(&report.closed_folds);
+    parts.extend(planes.cloned().map(Answer::Folds));
     parts
 }
 

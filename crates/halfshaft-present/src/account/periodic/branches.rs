@@ -4,7 +4,7 @@ use halfshaft_results::Branch;
 
 use super::super::Grid;
 use super::coexisting::periods_words;
-use crate::reading::{Reading, bounds, is_detached};
+use crate::reading::{Reading, bounds};
 use crate::words::{capital, plain};
 
 /// Every branch with where it lies, what it was found from and why it ends; nothing where there is
@@ -32,7 +32,7 @@ pub(super) fn grid(reading: &Reading<'_>) -> Grid {
 }
 
 fn kind(branch: &Branch) -> String {
-    let detached = is_detached(branch);
+    let detached = branch.is_detached();
     match (branch.periods, detached) {
         (0 | 1, true) => "Detached".to_owned(),
         (0 | 1, false) => "Main".to_owned(),

@@ -3,7 +3,7 @@
 
 use halfshaft_results::Branch;
 
-use crate::reading::{Reading, Sample, bounds, is_detached};
+use crate::reading::{Reading, Sample, bounds};
 use crate::words::{angle, capital, counted, number, plain};
 
 /// All of it as sentences.
@@ -26,7 +26,7 @@ pub(super) fn told(reading: &Reading<'_>) -> Vec<String> {
 
 /// Whether a branch has a sentence of its own.
 fn special(branch: &Branch) -> bool {
-    branch.periods > 1 || is_detached(branch)
+    branch.periods > 1 || branch.is_detached()
 }
 
 /// How many responses of the excitation's own period exist side by side.
@@ -99,7 +99,7 @@ fn set_apart(reading: &Reading<'_>, index: usize, branch: &Branch) -> Option<Str
     let swings = format!("±{} to ±{} rad, {stability}", number(least, 4), angle_end(most));
     let place = reading.x.between(from, to);
     let twist = reading.shaft().map_or_else(String::new, |shaft| format!("twist of the {shaft} "));
-    Some(if is_detached(branch) {
+    Some(if branch.is_detached() {
         let period = match branch.periods {
             0 | 1 => String::new(),
             periods => format!(" of {}", periods_words(periods)),

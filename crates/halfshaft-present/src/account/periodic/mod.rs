@@ -15,7 +15,7 @@ mod special;
 mod stability;
 mod swing;
 
-pub(crate) use coexisting::periods_words;
+pub(crate) use coexisting::{periods_words, unstable_gaps};
 
 /// The whole account.
 pub(crate) fn account(result: &ResonanceResult) -> Account {

@@ -1,6 +1,6 @@
 //! Where the response is largest, and how large it is there.
 
-use crate::reading::{Reading, Sample, is_detached};
+use crate::reading::{Reading, Sample};
 use crate::words::{angle, capital, frequency_words, quantity};
 
 /// A largest response.
@@ -22,7 +22,7 @@ pub(crate) fn largest(reading: &Reading<'_>, only_stable: bool) -> Option<Peak> 
     let samples = reading.samples();
     let reached = |sample: &&Sample| {
         let branch = reading.result.branches.get(sample.branch);
-        branch.is_some_and(|branch| !is_detached(branch) && branch.periods <= 1)
+        branch.is_some_and(|branch| !branch.is_detached() && branch.periods <= 1)
     };
     let any = !samples.iter().any(|sample| reached(&sample));
     let wanted = samples.iter().filter(|sample| any || reached(sample));

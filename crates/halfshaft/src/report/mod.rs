@@ -8,8 +8,11 @@ use halfshaft_model::question::{
 };
 use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
-    Answer, Header, MissingSection, ModeScaling, Reason, ReportResult, ResonanceResult, Termination,
+    Answer, FoldsResult, Header, MissingSection, Reason, ReportResult, ResonanceResult, Termination,
 };
+
+mod levels;
+mod planes;
 
 /// Asks everything that a report tells about a line.
 ///
@@ -27,7 +30,11 @@ pub fn report(line: &Driveline, observer: &dyn Observer) -> Result<ReportResult,
         modes: None,
         shock: None,
         resonance: None,
+        first_harmonic: None,
+        closed_form: None,
+        levels: Vec::new(),
         folds: Vec::new(),
+        closed_folds: Vec::new(),
         missing: Vec::new(),
     };
     let mut reporter = Reporter { line, observer, report: &mut report, done: 0 };
@@ -42,8 +49,12 @@ struct Reporter<'r> {
     done: usize,
 }
 
-/// Sections that a report asks for, for its progress.
-const SECTIONS: usize = 7;
+/// Sections that a report asks for, for its progress: statics, modes, shock, three methods of the
+/// resonance, and the fold planes by two methods.
+const SECTIONS: usize = 12;
+
+/// Error of the waveform that is tolerated along fold curves: it is not seen in a figure.
+const FOLD_TOLERANCE: f64 = 1e-4;
 
 impl Reporter<'_> {
     fn ask_all(&mut self) {
@@ -59,17 +70,44 @@ impl Reporter<'_> {
         if let Some(Answer::History(shock)) = self.ask("shock", &Question::Shock(shock)) {
             self.report.shock = Some(shock);
         }
-        let resonance = ResonanceQuestion {
-            method: ResonanceMethod::Averaged,
-            verify: true,
+        self.report.resonance = self.resonance("resonance", ResonanceMethod::HarmonicBalance);
+        self.report.first_harmonic =
+            self.resonance("first-harmonic", ResonanceMethod::FirstHarmonic);
+        self.report.closed_form = self.resonance("closed-form", ResonanceMethod::Averaged);
+        self.say_once();
+        self.folds();
+        if !self.observer.cancelled() {
+            self.report.levels = levels::levels(self.line, self.report, self.observer);
+        }
+    }
+
+    fn resonance(&mut self, section: &str, method: ResonanceMethod) -> Option<ResonanceResult> {
+        let question = ResonanceQuestion {
+            method,
+            // One harmonic is held against harmonic balance.
+            verify: method != ResonanceMethod::FirstHarmonic,
+            backbone: method == ResonanceMethod::HarmonicBalance,
             ..ResonanceQuestion::default()
         };
-        if let Some(Answer::Resonance(resonance)) =
-            self.ask("resonance", &Question::Resonance(resonance))
-        {
-            self.folds(&resonance);
-            self.report.resonance = Some(resonance);
+        match self.ask(section, &Question::Resonance(question))? {
+            Answer::Resonance(resonance) => Some(resonance),
+            _ => None,
         }
+    }
+
+    /// Where no method has a resonance, that is told once. That a method does not fit the line tells
+    /// less than why another one failed.
+    fn say_once(&mut self) {
+        if self.report.best_resonance().is_some() {
+            return;
+        }
+        const METHODS: [&str; 3] = ["resonance", "first-harmonic", "closed-form"];
+        let missing = &mut self.report.missing;
+        let methods = || missing.iter().filter(|one| METHODS.contains(&one.section.as_str()));
+        let telling = methods().find(|one| !one.reason.contains("does not fit this line"));
+        let Some(told) = telling.or_else(|| methods().next()).cloned() else { return };
+        missing.retain(|one| !METHODS.contains(&one.section.as_str()));
+        missing.push(MissingSection { section: METHODS[0].to_owned(), ..told });
     }
 
     /// One answer; where there is none the reason is noted.
@@ -126,71 +164,49 @@ impl Reporter<'_> {
     }
 
     /// Fold curves over the amplitude of the excitation, the damping and the cubic stiffness of
-    /// the shaft that measures the mode.
-    fn folds(&mut self, resonance: &ResonanceResult) {
-        let Some(scaling) = resonance.scaling.first() else { return };
-        for parameter in planes(self.line, scaling) {
-            let question = FoldsQuestion {
-                frequency: None,
-                parameter,
-                method: ResonanceMethod::Averaged,
-                mode: scaling.mode,
-                order: Some(scaling.order),
-                points: 240,
-                harmonics: None,
-                tolerance: 1e-6,
-            };
-            if let Some(Answer::Folds(folds)) = self.ask("folds", &Question::Folds(question)) {
+    /// the shaft that swings most, by harmonic balance and in closed form.
+    fn folds(&mut self) {
+        let closed = self.report.closed_form.as_ref().and_then(|form| form.scaling.first());
+        let closed = closed.map(|scaling| (scaling.mode, scaling.order));
+        for parameter in planes::planes(self.line, self.report) {
+            let beside = closed.and_then(|(mode, order)| {
+                let own = (mode, Some(order));
+                self.plane(question(&parameter, None, ResonanceMethod::Averaged, own))
+            });
+            if self.report.resonance.is_some() {
+                let speeds = beside.as_ref().and_then(planes::speeds);
+                let balance = ResonanceMethod::HarmonicBalance;
                 // A plane without any fold is a finding too; its warning says so.
-                self.report.folds.push(folds);
+                let folds = self.plane(question(&parameter, speeds, balance, (1, None)));
+                self.report.folds.extend(folds);
             }
+            self.report.closed_folds.extend(beside);
+        }
+    }
+
+    fn plane(&mut self, question: FoldsQuestion) -> Option<FoldsResult> {
+        match self.ask("folds", &Question::Folds(question))? {
+            Answer::Folds(folds) => Some(folds),
+            _ => None,
         }
     }
 }
 
-/// Parameters and ranges that hold both the model's own value and the cusp, where there is one.
-fn planes(line: &Driveline, scaling: &ModeScaling) -> Vec<ParameterRange> {
-    let mut planes = Vec::new();
-    let mut add = |address: String, from: f64, to: f64| {
-        if line.parameter(&address).is_ok() && from < to {
-            planes.push(ParameterRange { address, from, to });
-        }
-    };
-    // The excitation scales all amplitudes of its order together only where there is one.
-    let loud: Vec<_> = line
-        .torques()
-        .iter()
-        .filter(|torque| torque.harmonics[0].amplitude_nm != 0.0)
-        .filter(|torque| torque.harmonics[0].order == scaling.order)
-        .collect();
-    if let ([torque], Some(factor)) = (loud.as_slice(), scaling.fold_threshold_factor) {
-        let own = torque.harmonics[0].amplitude_nm.abs();
-        let to = own * (1.6 * factor).max(1.4);
-        add(format!("{}.amplitude", torque.name), own * 1e-3, to);
+/// Fold curves over a parameter, of a mode and an order where the method is of one.
+fn question(
+    parameter: &ParameterRange,
+    frequency: Option<(f64, f64)>,
+    method: ResonanceMethod,
+    (mode, order): (usize, Option<f64>),
+) -> FoldsQuestion {
+    FoldsQuestion {
+        frequency,
+        parameter: parameter.clone(),
+        method,
+        mode,
+        order,
+        points: 240,
+        harmonics: None,
+        tolerance: FOLD_TOLERANCE,
     }
-    let shaft = line.shafts().iter().find(|shaft| shaft.name == scaling.shaft);
-    if let Some(shaft) = shaft.filter(|shaft| shaft.damping_nm_s_per_rad > 0.0) {
-        let own = shaft.damping_nm_s_per_rad;
-        let critical = own * critical_damping(scaling) / scaling.beta;
-        if critical.is_finite() && critical > 0.0 {
-            add(
-                format!("{}.damping", shaft.name),
-                0.05 * critical,
-                (1.6 * critical).max(1.2 * own),
-            );
-        }
-    }
-    if let Some(shaft) = shaft.filter(|shaft| shaft.cubic_nm_per_rad3 != 0.0) {
-        let own = shaft.cubic_nm_per_rad3;
-        let reach = 2.0 * own.abs();
-        add(format!("{}.cubic", shaft.name), -reach, reach);
-    }
-    planes
-}
-
-/// Damping coefficient below which the response folds at the model's own excitation:
-/// `β_c³ = 9 √3 |α| f²/(32 ω1³)` (theory 5).
-fn critical_damping(scaling: &ModeScaling) -> f64 {
-    let ModeScaling { alpha, f, omega_1, .. } = scaling;
-    (9.0 * 3.0_f64.sqrt() * alpha.abs() * f * f / (32.0 * omega_1.powi(3))).cbrt()
 }

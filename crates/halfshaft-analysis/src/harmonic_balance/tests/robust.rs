@@ -1,0 +1,1 @@
+//! Lines that ask for trouble.
