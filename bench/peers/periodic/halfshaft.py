@@ -11,7 +11,7 @@ MODELS = Path(__file__).resolve().parent / "models"
 # How often the question is repeated in one process to find what it costs without the start-up.
 SHORT, LONG = 1, 11
 # Processor seconds after which an answer is given up.
-LIMIT = 120
+LIMIT = 60
 
 
 class Halfshaft:
