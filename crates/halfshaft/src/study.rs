@@ -164,7 +164,7 @@ fn row(
         Printed::Text(text) => (text.clone(), None),
     };
     let (recomputed, recomputed_value) = match &picked {
-        Picked::Number(value) => (significant(*value, 8), Some(*value)),
+        Picked::Number(value) => (significant(*value, digits_of(&printed)), Some(*value)),
         Picked::Order(names) => (names.join(" > "), None),
         Picked::Nothing(reason) => (reason.clone(), None),
     };
@@ -197,13 +197,27 @@ fn relative(printed: f64, recomputed: f64) -> String {
         return format!("{:+.1e}", printed - recomputed);
     }
     let part = (printed - recomputed) / recomputed;
+    if part.abs() < 1e-10 {
+        // What is below is rounding, another one on every machine.
+        return "< 1e-10".to_owned();
+    }
     if part.abs() >= 1e-3 { format!("{:+.2} %", 100.0 * part) } else { format!("{part:+.1e}") }
+}
+
+/// Digits with which a number is shown beside a printed one: as many as that has, eight at least, and
+/// no more than every machine computes alike.
+fn digits_of(printed: &str) -> i32 {
+    let digits = printed.chars().filter(char::is_ascii_digit).skip_while(|digit| *digit == '0');
+    i32::try_from(digits.count()).unwrap_or(0).clamp(8, 11)
 }
 
 /// A number with so many significant digits, without needless zeros.
 fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
+    }
+    if value.abs() < 1e-6 {
+        return format!("{value:.2e}");
     }
     #[expect(clippy::cast_possible_truncation, reason = "exponents are small")]
     let places = (digits - 1 - value.abs().log10().floor() as i32).clamp(0, 17);

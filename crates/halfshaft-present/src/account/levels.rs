@@ -38,6 +38,15 @@ fn reference(row: &LevelRow) -> Option<f64> {
     row.integration.or(row.harmonic_balance)
 }
 
+/// Speeds and differences, as parts, of a level from integration.
+pub(crate) fn from_integration(rows: &[LevelRow], method: Method) -> Vec<(f64, f64)> {
+    let Some((_, of)) = LEVELS.iter().find(|(name, _)| *name == method.words()) else {
+        return Vec::new();
+    };
+    let integrated = rows.iter().filter(|row| row.integration.is_some());
+    integrated.filter_map(|row| Some((row.at?, difference(row, *of)?.abs()))).collect()
+}
+
 /// Difference of a level from the reference of its row, as a part of the latter; `None` of the
 /// reference itself.
 fn difference(row: &LevelRow, of: fn(&LevelRow) -> Option<f64>) -> Option<f64> {
@@ -90,13 +99,14 @@ fn grid(rows: &[LevelRow]) -> Grid {
         let at = row.at.map_or_else(String::new, |speed| {
             format!(" at {}", crate::words::quantity(speed, 6, "rad/s"))
         });
-        capital(&format!("{}{at}", plain(&row.what)))
+        let unit = plain(unit(&row.unit));
+        let unit = if unit.is_empty() { unit } else { format!(", {unit}") };
+        capital(&format!("{}{at}{unit}", plain(&row.what)))
     };
     // Rows of different units: each value keeps its own digits.
     let cell = |value: Option<f64>| value.map_or_else(String::new, |value| number(value, 7));
-    let mut grid = Grid::new("Values by every method, and differences")
-        .words("value", rows.iter().map(what))
-        .words("unit", rows.iter().map(|row| unit(&row.unit)));
+    let mut grid =
+        Grid::new("Values by every method, and differences").words("value", rows.iter().map(what));
     for (name, of) in LEVELS {
         grid = grid.figures(name, rows.iter().map(|row| cell(of(row))));
     }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use halfshaft_results::SpecialKind;
+
 use crate::figure::{Axis, Colour, Curve, Figure, Line, Panel, Points, Size};
 use crate::reading::Reading;
 
@@ -10,9 +12,16 @@ pub(super) const ID: &str = "multipliers";
 /// Half of the width of the plane at most, in radii of the circle.
 const WIDEST: f64 = 2.5;
 
-/// The multipliers of all responses; `None` where none is known or none leaves the circle.
+/// The multipliers of all responses; `None` where none is known or none leaves the circle but in
+/// folds, at 1, where there is nothing to see.
 pub(super) fn figure(reading: &Reading<'_>) -> Option<Figure> {
     let branches = &reading.result.branches;
+    let leaves = |kind: SpecialKind| {
+        matches!(kind, SpecialKind::PeriodDoubling | SpecialKind::NeimarkSacker)
+    };
+    if !branches.iter().flat_map(|b| &b.special_points).any(|point| leaves(point.kind)) {
+        return None;
+    }
     let all = || branches.iter().flat_map(|branch| &branch.multipliers).flatten();
     let size = |multiplier: &[f64; 2]| multiplier[0].hypot(multiplier[1]);
     let most = all().map(size).filter(|size| size.is_finite()).reduce(f64::max)?;

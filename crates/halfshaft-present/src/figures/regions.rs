@@ -51,7 +51,8 @@ fn colour(count: u32) -> Colour {
         1 => Colour::SAFE,
         2 | 3 => Colour::Sky,
         4 | 5 => Colour::Orange,
-        _ => Colour::Purple,
+        6 | 7 => Colour::Purple,
+        _ => Colour::Grey,
     }
 }
 

@@ -38,15 +38,15 @@ fn figure(study: &StudyResult, spec: &StudyFigureSpec) -> Figure {
     let scaling = items.iter().find_map(|(_, answer)| detuned::scaling(answer));
     let mut colours = 0;
     let mut drawn = Vec::new();
-    let mut known: Vec<(&str, Colour)> = Vec::new();
+    let mut known: Vec<&str> = Vec::new();
     for (item, answer) in &items {
-        // A second method has the colour of the first one that answers the same question.
-        let first = known.iter().find(|(name, _)| is_second_of(item, name));
-        let colour = first.map_or_else(|| Colour::index(colours), |(_, colour)| *colour);
-        let drawing = Drawing { spec, item, colour, scaling };
+        let beside = known.iter().find_map(|name| second_of(item, answer, name));
+        // All of a second method look alike; each lies beside the first that it belongs to.
+        let colour = beside.map_or_else(|| Colour::index(colours), |_| Colour::Black);
+        let drawing = Drawing { spec, item, colour, scaling, beside };
         let items = drawing.items(&detuned::completed(answer, scaling));
-        colours += usize::from(first.is_none() && !items.is_empty());
-        known.push((&item.question, colour));
+        colours += usize::from(beside.is_none() && !items.is_empty());
+        known.push(&item.question);
         drawn.extend(items);
     }
     // The legend names the curves first, then the kinds of points.
@@ -57,10 +57,12 @@ fn figure(study: &StudyResult, spec: &StudyFigureSpec) -> Figure {
         .with(panel)
 }
 
-/// Whether a question is another one asked by a second method: "f = 5, harmonic balance" of "f = 5".
-fn is_second_of(item: &StudyItem, name: &str) -> bool {
-    let rest = item.question.strip_prefix(name);
-    item.style == ItemStyle::Second && rest.is_some_and(|rest| rest.starts_with(", "))
+/// The name of the method of a question that asks for periodic responses as another one does, by a
+/// second method: "harmonic balance" of "f = 5, harmonic balance" beside "f = 5".
+fn second_of<'s>(item: &'s StudyItem, answer: &Answer, name: &str) -> Option<&'s str> {
+    let periodic = matches!(answer, Answer::Resonance(_) | Answer::Folds(_));
+    let second = periodic && item.style == ItemStyle::Second;
+    item.question.strip_prefix(name)?.strip_prefix(", ").filter(|_| second)
 }
 
 /// The axis of a column, with the unit that the first answer gives it.
@@ -123,6 +125,8 @@ struct Drawing<'s> {
     colour: Colour,
     /// The scaling of the figure's closed form.
     scaling: Option<&'s ModeScaling>,
+    /// The method, where the question is that of another one by a second method.
+    beside: Option<&'s str>,
 }
 
 impl Drawing<'_> {
@@ -135,7 +139,7 @@ impl Drawing<'_> {
     }
 
     fn label(&self) -> String {
-        name(&minus(&self.item.question))
+        name(&minus(self.beside.unwrap_or(&self.item.question)))
     }
 
     /// A curve for each of the answer's tables that has both columns.
@@ -150,6 +154,9 @@ impl Drawing<'_> {
 
     fn styled(&self, curve: Curve) -> Curve {
         match self.item.style {
+            ItemStyle::Second if self.beside.is_some() => {
+                curve.with_line(Line::DashDot).with_width(1.0)
+            }
             ItemStyle::Second => curve.with_line(Line::DashDot),
             ItemStyle::Line | ItemStyle::Hidden => curve,
         }
@@ -220,7 +227,10 @@ impl Drawing<'_> {
         let points = Points::new(kind, xs, ys, Colour::DANGER).with_marker(marker);
         // Those of a second method lie beside the first's, which are named.
         Some(match self.item.style {
-            ItemStyle::Second => Points { size: 4.5, ..points }.unlisted().into(),
+            ItemStyle::Second => {
+                let colour = if self.beside.is_some() { Colour::Black } else { points.colour };
+                Points { size: 4.0, colour, ..points }.unlisted().into()
+            }
             ItemStyle::Line | ItemStyle::Hidden => points.with_labels(labels).into(),
         })
     }

@@ -89,14 +89,23 @@ impl Reporter<'_> {
             backbone: method == ResonanceMethod::HarmonicBalance,
             ..ResonanceQuestion::default()
         };
-        match self.ask(section, &Question::Resonance(question))? {
-            Answer::Resonance(resonance) => Some(resonance),
-            _ => None,
+        let Answer::Resonance(resonance) = self.ask(section, &Question::Resonance(question))?
+        else {
+            return None;
+        };
+        if resonance.branches.is_empty() {
+            self.report.missing.push(MissingSection {
+                section: section.to_owned(),
+                reason: "no periodic response was found".to_owned(),
+                advice: None,
+            });
+            return None;
         }
+        Some(resonance)
     }
 
-    /// Where no method has a resonance, that is told once. That a method does not fit the line tells
-    /// less than why another one failed.
+    /// Where no method has a resonance, that is told once: for the reason of other sections if it is
+    /// one of theirs. That a method does not fit the line tells less than why another one failed.
     fn say_once(&mut self) {
         if self.report.best_resonance().is_some() {
             return;
@@ -104,8 +113,13 @@ impl Reporter<'_> {
         const METHODS: [&str; 3] = ["resonance", "first-harmonic", "closed-form"];
         let missing = &mut self.report.missing;
         let methods = || missing.iter().filter(|one| METHODS.contains(&one.section.as_str()));
-        let telling = methods().find(|one| !one.reason.contains("does not fit this line"));
-        let Some(told) = telling.or_else(|| methods().next()).cloned() else { return };
+        let of_others = |one: &&MissingSection| {
+            let mut others = missing.iter().filter(|o| !METHODS.contains(&o.section.as_str()));
+            others.any(|other| other.reason == one.reason)
+        };
+        let telling = |one: &&MissingSection| !one.reason.contains("does not fit this line");
+        let told = methods().find(of_others).or_else(|| methods().find(telling));
+        let Some(told) = told.or_else(|| methods().next()).cloned() else { return };
         missing.retain(|one| !METHODS.contains(&one.section.as_str()));
         missing.push(MissingSection { section: METHODS[0].to_owned(), ..told });
     }

@@ -74,7 +74,7 @@ fn about_cusps(line: &Driveline, scaling: &ModeScaling) -> Vec<ParameterRange> {
         if critical.is_finite() && critical > 0.0 {
             add(
                 format!("{}.damping", shaft.name),
-                0.05 * critical,
+                (0.25 * critical).min(0.5 * own),
                 (1.6 * critical).max(1.2 * own),
             );
         }

@@ -7,7 +7,7 @@ use halfshaft::present::figure::Item;
 use halfshaft::present::summary::text;
 use halfshaft::results::{MissingSection, ReportResult};
 
-use super::common::{SCALED, flat, the_report};
+use super::common::{EVERY_METHOD_SCALED, SCALED, by_hand, flat, the_report};
 use super::figures::{figure, points};
 use super::html::Page;
 use super::made;
@@ -52,6 +52,43 @@ fn all_methods_stand_in_one_figure() {
     assert!(integrated.y.iter().all(|y| wanted.iter().any(|point| point.integrated == *y)));
 }
 
+// Source: the theory by hand for the closed form: its folds (σ = −0.162719 and −0.120221 about
+// 26.06 rad/s at ρ = 3.986246 and 2.283639) and the averaged equation; x'' + 26.06² x − 0.679 x³ +
+// 0.0951 x' = 10 cos Ωt with one harmonic put in; for harmonic balance integration of the full
+// equations, an independent method.
+#[test]
+fn real_methods_stand_side_by_side() {
+    let report = the_report(&EVERY_METHOD_SCALED);
+    let row = |what: &str| report.levels.iter().find(|row| row.what == what).expect("is there");
+    for (fold, sigma, rho) in [(1, -0.162719, 3.986246), (2, -0.120221, 2.283639)] {
+        let speed = row(&format!("fold {fold}: speed")).closed_form.unwrap();
+        assert!((speed - 26.06 - sigma).abs() < 1e-6, "{speed}");
+        let twist = row(&format!("fold {fold}: twist")).closed_form.unwrap();
+        assert!((twist / rho - 1.0).abs() < 1e-6, "{twist}");
+    }
+    let checked: Vec<_> = report.levels.iter().filter(|row| row.integration.is_some()).collect();
+    assert!(checked.len() > 4, "{checked:?}");
+    for row in checked {
+        let (balance, integration) = (row.harmonic_balance.unwrap(), row.integration.unwrap());
+        assert!((balance / integration - 1.0).abs() < 1e-7, "{row:?}");
+        let (speed, closed, first) =
+            (row.at.unwrap(), row.closed_form.unwrap(), row.first_harmonic.unwrap());
+        let (omega, alpha, beta, f) = (26.06, -0.679, 0.0951, 10.0);
+        let bent = speed - omega - 3.0 * alpha / (8.0 * omega) * closed * closed;
+        let drive = 2.0 * omega * closed * (0.5 * beta).hypot(bent);
+        assert!((drive / f - 1.0).abs() < 1e-5, "{row:?}: {drive}");
+        let stiff = omega * omega - speed * speed + 0.75 * alpha * first * first;
+        let drive = first * stiff.hypot(beta * speed);
+        assert!((drive / f - 1.0).abs() < 1e-5, "{row:?}: {drive}");
+    }
+    let cusp = row("cusp: excitation amplitude");
+    let threshold = by_hand::fold_threshold(26.06, -0.679, 0.0951);
+    assert!((cusp.closed_form.unwrap() / threshold - 1.0).abs() < 1e-6, "{cusp:?}");
+    // Averaging is half a percent high.
+    let high = threshold / cusp.harmonic_balance.unwrap() - 1.0;
+    assert!((high - 0.0046).abs() < 2e-4, "{high}");
+}
+
 // Source: the rows of the made-up report, by hand: the closed form against integration.
 #[test]
 fn differences_are_told_in_numbers() {
@@ -64,7 +101,7 @@ fn differences_are_told_in_numbers() {
         .fold(0.0, f64::max);
     let shown = super::common::number_after(&told, "the closed form by at most");
     super::common::assert_shows(shown, 100.0 * worst, 2);
-    assert!(told.contains("Values by every method"), "{told}");
+    assert!(told.contains("Values by every method, and differences"), "{told}");
     // Folds: harmonic balance is what the others are held against: 1/(1 + 2e-4) − 1.
     let folds = &told[told.find("The speeds of the folds").unwrap()..];
     let off = 100.0 * (1.0 - 1.0 / (1.0 + 2e-4));
