@@ -3,9 +3,9 @@
 
 mod common;
 
-use common::{line_of, of_kind, resonance, some};
+use common::{assert_close, line_of, of_kind, resonance, some};
 use halfshaft_model::question::QuestionText;
-use halfshaft_results::{ResonanceResult, SpecialKind, SpecialPoint};
+use halfshaft_results::{ResonanceResult, SpecialKind, SpecialPoint, Status};
 
 /// `M = I`, `K = [[1, -1], [-1, 2]]`, `D = 0.03 K`, a stop at 1 rad with stiffness 100 on the first.
 const ONE_SIDED: &str = r#"
@@ -41,34 +41,100 @@ on = "n2"
 amplitude = 0.1
 "#;
 
-fn asked(text: &str, frequency: &str, verify: bool) -> ResonanceResult {
+/// A stop on one side only, and a gap with a mean torque in it: both begin and cease to touch.
+const BACKLASH: &str = r#"
+format = 1
+name = "Backlash"
+[[inertia]]
+name = "n1"
+inertia = 1
+damping = 0.1
+[[shaft]]
+name = "mesh"
+from = "n1"
+to = "ground"
+stiffness = 1
+clearance = "2 rad"
+[[torque]]
+name = "drive"
+on = "n1"
+mean = 0.3
+amplitude = 0.2
+"#;
+
+fn asked(text: &str, settings: &[&str], frequency: &str) -> ResonanceResult {
     let question = QuestionText {
         method: some("harmonic-balance"),
         frequency: some(frequency),
-        verify,
+        verify: true,
         ..QuestionText::default()
     };
-    resonance(&line_of(text, &[]), &question)
+    resonance(&line_of(text, settings), &question)
 }
 
-#[test]
-fn look() {
-    let start = std::time::Instant::now();
-    let result = asked(ONE_SIDED, "0.55..0.8", true);
-    println!("{:?}", start.elapsed());
-    println!("{:?}", result.header.warnings);
-    for branch in &result.branches {
-        let f = branch.values("frequency");
-        println!("BRANCH periods {} {} closed {} ends {} from {}", branch.periods, f.len(), branch.closed, branch.ends, branch.origin);
-        let (h, t, a, s, l) = (branch.values("harmonics"), branch.values("truncation"), branch.values("stop.twist.amplitude"), branch.values("unstable_dimension"), branch.values("largest_multiplier"));
-        for k in 0..f.len() {
-            if k % 1 == 0 { println!("{:.10} {:.6} H {} trunc {:.1e} u {} {:.5}", f[k], a[k], h[k], t[k], s[k], l[k]); }
-        }
-        for p in &branch.special_points {
-            println!("  {:?} {:?} {:.12} amp {:?} {:?} {:?} {:?}", p.kind, p.status, p.value("frequency").unwrap_or(f64::NAN), p.value("stop.twist.amplitude"), p.value("precision"), p.unstable_dimension_change, p.note);
-        }
+fn kinds(result: &ResonanceResult, periods: u32, kind: SpecialKind) -> Vec<&SpecialPoint> {
+    let branches = result.branches.iter().filter(|branch| branch.periods == periods);
+    branches.flat_map(|branch| of_kind(&branch.special_points, kind)).collect()
+}
+
+#[track_caller]
+fn found<'r>(points: &[&'r SpecialPoint], frequency: f64, relative: f64) -> &'r SpecialPoint {
+    let near = |point: &&&SpecialPoint| {
+        (point.value("frequency").expect("has one") / frequency - 1.0).abs() < relative
+    };
+    let found: Vec<_> = points.iter().filter(near).collect();
+    assert_eq!(found.len(), 1, "{frequency}: {points:?}");
+    assert_eq!(found[0].status, Status::Located);
+    found[0]
+}
+
+/// Every verified sample agrees with the motion itself.
+fn hold_against_the_motion(result: &ResonanceResult, tolerance: f64) {
+    assert!(result.verification.len() > 8);
+    for point in &result.verification {
+        assert!(point.relative_difference.abs() < tolerance, "{point:?}");
+        assert_eq!(point.predicted_stable, point.integrated_stable, "{point:?}");
+        assert!(point.orbit_residual < 1e-10, "{point:?}");
     }
-    for v in &result.verification {
-        println!("V {:.8} pred {:.9} int {:.9} rel {:.1e} stable {} {} mult {:?} {} res {:.1e}", v.frequency, v.predicted, v.integrated, v.relative_difference, v.predicted_stable, v.integrated_stable, v.predicted_multiplier, v.largest_multiplier, v.orbit_residual);
+}
+
+// Source: the reference case, from an exact piecewise-linear solution.
+#[test]
+fn one_sided_contact_has_its_reference_points() {
+    let result = asked(ONE_SIDED, &[], "0.55..0.8");
+    let first: Vec<_> = result.branches.iter().filter(|branch| branch.periods == 1).collect();
+    assert_eq!(first.len(), 1, "one curve from border to border");
+    let folds = kinds(&result, 1, SpecialKind::Fold);
+    let fold = found(&folds, 0.755_627_352_6, 1e-10);
+    let twist = |name: &str| fold.value(&format!("stop.twist.{name}")).expect("a channel");
+    assert!(fold.value("precision").expect("has one") < 1e-11);
+    // The angle of n1 is the twist of the stop; its greatest value at the fold is given.
+    assert_close(twist("maximum"), 1.068_863, 5e-7);
+    let doublings = kinds(&result, 1, SpecialKind::PeriodDoubling);
+    assert_eq!(doublings.len(), 2);
+    found(&doublings, 0.755_586_159_4, 1e-10);
+    found(&doublings, 0.738_783_025_4, 1e-10);
+    let tori = kinds(&result, 1, SpecialKind::NeimarkSacker);
+    let torus = found(&tori, 0.618_606_874_3, 1e-10);
+    let angle = 0.997_564_f64.atan2(-0.069_761);
+    assert_close(torus.value("multiplier_angle").expect("has one"), angle, 1e-6);
+    assert_close(torus.value("largest_multiplier").expect("has one"), 1.0, 1e-9);
+    // Where the linear response touches.
+    let grazing = kinds(&result, 1, SpecialKind::GrazingContact);
+    assert_eq!(grazing.len(), 2);
+    found(&grazing, 0.581_899_639_0, 1e-10);
+    let point = found(&grazing, 0.653_440_140_4, 1e-10);
+    let note = point.note.as_deref().expect("says what touches");
+    assert_eq!(note, "the twist of `stop` touches 1 rad from below");
+    hold_against_the_motion(&result, 1e-6);
+}
+
+// Source: orbits by Taylor series from contact to contact, which know nothing of harmonics.
+#[test]
+fn backlash_under_a_mean_torque_agrees_with_its_motion() {
+    for mean in ["0.3", "0.05"] {
+        let result = asked(BACKLASH, &[&format!("drive.mean={mean}")], "0.4..1.4");
+        hold_against_the_motion(&result, 1e-6);
+        assert!(!kinds(&result, 1, SpecialKind::GrazingContact).is_empty(), "{mean}");
     }
 }
