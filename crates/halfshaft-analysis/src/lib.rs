@@ -35,6 +35,8 @@ use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{Answer, ResponseCount};
 
 pub use error::AnalysisError;
+#[doc(hidden)]
+pub use harmonic_balance::layers;
 
 /// Numbers of periodic responses that coexist, by the first harmonic, at all pairs of excitation
 /// speeds (rad/s) and values of the parameter of a question about folds.

@@ -5,10 +5,10 @@ use std::rc::Rc;
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{Question, ResonanceQuestion};
+use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Branch, Column, Effort, Header, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
-    Status, Termination,
+    Branch, Column, Effort, Header, Named, ResonanceResult, SpecialKind, SpecialPoint, Status,
 };
 
 use super::backbone::{BackboneSettings, backbones};
@@ -16,11 +16,13 @@ use super::branches::{Collected, Job, TracedBranch};
 use super::channels::{ChannelValue, Channels, named, names};
 use super::jumps::jumps;
 use super::line::Line;
+use super::messages::messages;
 use super::problem::Axis;
 use super::range::default_range;
-use super::seeds::{Seed, over_drive};
+use super::seeds::{Seed, drive_curve};
 use super::stability::Stability;
 use super::system::{HarmonicSystem, Place};
+use super::tips::tips;
 use super::tracer::{BranchEnd, Counted, LONGEST, MISS, Sample, TraceSettings, length};
 use crate::equilibrium;
 use crate::error::AnalysisError;
@@ -28,6 +30,7 @@ use crate::header::header;
 use crate::verification::common_order;
 
 /// A line about to be asked for its periodic responses.
+#[derive(Debug)]
 pub(crate) struct Setting {
     pub(crate) line: Line,
     /// Twists at rest.
@@ -87,9 +90,11 @@ impl Setting {
         self.orders().last().copied().unwrap_or(1).max(1)
     }
 
-    /// Seeds at the ends of the range and between them, with their speed and where they come from.
+    /// Seeds at the ends of the range and between them, and at the tips of resonances, with their
+    /// speed and where they come from.
     pub(super) fn seeds(
         &self,
+        harmonics: Option<usize>,
         observer: &dyn Observer,
         counted: &mut Counted,
     ) -> Vec<(Seed, f64, String)> {
@@ -98,14 +103,21 @@ impl Setting {
         let inner = (1..=INNER_SEEDS).map(|k| (at(k), format!("a response at {:.6} rad/s", at(k))));
         let ends =
             [(low, "low end of the range".to_owned()), (high, "high end of the range".to_owned())];
+        let (highest, orders) = (self.excited(), self.orders());
+        let set = if self.odd { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) };
         let mut seeds = Vec::new();
+        let mut curves = Vec::new();
         for (frequency, origin) in ends.into_iter().chain(inner) {
             let frequency = if frequency == 0.0 { 1e-3 * high } else { frequency };
-            let (line, highest) = (&self.line, self.excited());
-            let found = over_drive(
-                line, &self.rest, self.base, self.odd, highest, frequency, observer, counted,
+            let curve = drive_curve(
+                &self.line, &self.rest, self.base, &set, &orders, frequency, observer, counted,
             );
-            seeds.extend(found.into_iter().map(|seed| (seed, frequency, origin.clone())));
+            let found = curve.seeds.iter().cloned();
+            seeds.extend(found.map(|seed| (seed, frequency, origin.clone())));
+            curves.push(curve);
+        }
+        for (seed, frequency) in tips(self, curves, harmonics, observer, counted) {
+            seeds.push((seed, frequency, format!("a resonance at {frequency:.6} rad/s")));
         }
         seeds
     }
@@ -154,7 +166,7 @@ pub(crate) fn solve(
     }
     let settings = trace_settings(&setting, question);
     let mut counted = Counted::default();
-    let seeds = setting.seeds(observer, &mut counted);
+    let seeds = setting.seeds(question.harmonics, observer, &mut counted);
     let job = Job {
         line: &setting.line,
         axis: Axis::Frequency,
@@ -414,56 +426,4 @@ fn peak(setting: &Setting, branch: &Branch) -> Option<Named<f64>> {
 pub(super) fn reference(setting: &Setting) -> &str {
     let index = setting.line.twists.first().map_or(0, |twist| twist.connection);
     &setting.line.equations.connections[index].name
-}
-
-pub(super) fn messages(
-    setting: &Setting,
-    question: &ResonanceQuestion,
-    all: &Collected,
-    result: &mut ResonanceResult,
-) {
-    let header = &mut result.header;
-    header.warnings.extend(all.messages.iter().cloned());
-    if all.branches.is_empty() {
-        header.warnings.push(format!(
-            "no periodic response was found between {:.6} and {:.6} rad/s; try a narrower range or a \
-             lower amplitude",
-            setting.range.0, setting.range.1
-        ));
-    }
-    for branch in &all.branches {
-        let mut stopped = |end: BranchEnd, sample: Option<&Sample>| {
-            let Some(sample) = sample else { return };
-            let why = match end {
-                BranchEnd::StepTooSmall => "no step was small enough to go on",
-                BranchEnd::SampleLimit => "as many samples as allowed were taken",
-                BranchEnd::Unbounded => "the response grows beyond all measure",
-                _ => return,
-            };
-            header.warnings.push(format!(
-                "the branch from the {} stops at {:.6} rad/s: {why}; try --tolerance {:.0e} or a \
-                 narrower range",
-                branch.origin,
-                sample.p,
-                10.0 * question.tolerance
-            ));
-        };
-        stopped(branch.ends[0], branch.samples.first());
-        stopped(branch.ends[1], branch.samples.last());
-    }
-    if all.exhausted {
-        header.warnings.push(format!(
-            "even {} harmonics leave more than the tolerance of {:e} of some waveforms; see the column \
-             truncation",
-            super::tracer::MOST_HARMONICS,
-            question.tolerance
-        ));
-    }
-    if let Some(harmonics) = question.harmonics {
-        header.assumptions.push(format!("{harmonics} harmonics, as asked"));
-    }
-    if all.cancelled {
-        let detail = "branches were left before their end".to_owned();
-        header.termination = Termination::early(Reason::Cancelled, detail);
-    }
 }

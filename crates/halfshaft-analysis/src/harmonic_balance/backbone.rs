@@ -34,7 +34,7 @@ pub(super) struct Resonant {
     pub(super) u: Vec<f64>,
     pub(super) frequency: f64,
     pub(super) drive: f64,
-    tangent: (Vec<f64>, f64, f64),
+    pub(super) tangent: (Vec<f64>, f64, f64),
 }
 
 /// How far a backbone is followed.
@@ -58,24 +58,24 @@ const MOST_ITERATIONS: usize = 9;
 const CONVERGED: f64 = 1e-9;
 
 /// The equations of phase resonance of one line.
-struct PhaseResonance {
-    system: HarmonicSystem,
+pub(super) struct PhaseResonance {
+    pub(super) system: HarmonicSystem,
     matrix: BlockSystem,
     factors: Option<Factors>,
     /// Order, over the base, at which the torques act.
     order: usize,
-    /// Whether the mean and even orders are held at what they are where the line rests.
-    pub(super) span: f64,
+    /// Length by which speeds are measured, rad/s.
+    span: f64,
 }
 
 impl PhaseResonance {
-    fn new(line: Line, set: HarmonicSet, base: f64, order: usize, span: f64) -> Self {
+    pub(super) fn new(line: Line, set: HarmonicSet, base: f64, order: usize, span: f64) -> Self {
         let system = HarmonicSystem::new(line, set, base);
         Self { matrix: system.blocks(2), factors: None, system, order, span }
     }
 
     /// Row of the condition that the torques do no reactive work, of unit length.
-    fn phase_row(&self) -> Vec<f64> {
+    pub(super) fn phase_row(&self) -> Vec<f64> {
         // The derivative by the drive is minus the torque: (Re T, -Im T) beside (a, b) of q = a - i b.
         let m = self.system.set.coefficients();
         let mut row = vec![0.0; self.system.unknowns()];
@@ -94,7 +94,7 @@ impl PhaseResonance {
     }
 
     /// Newton's method under `row · (u, Ω, drive) = target`.
-    fn correct(
+    pub(super) fn correct(
         &mut self,
         point: &mut (Vec<f64>, f64, f64),
         row: (&[f64], f64, f64),
@@ -145,7 +145,7 @@ impl PhaseResonance {
         Ok(phase)
     }
 
-    fn sample(
+    pub(super) fn sample(
         &mut self,
         point: (Vec<f64>, f64, f64),
         row: (&[f64], f64, f64),
@@ -167,7 +167,7 @@ impl PhaseResonance {
         })
     }
 
-    fn use_set(&mut self, set: &HarmonicSet) {
+    pub(super) fn use_set(&mut self, set: &HarmonicSet) {
         if self.system.set != *set {
             *self = Self::new(
                 self.system.line.clone(),
@@ -221,7 +221,7 @@ impl PhaseResonance {
         samples
     }
 
-    fn try_step(
+    pub(super) fn try_step(
         &mut self,
         last: &Resonant,
         step: f64,

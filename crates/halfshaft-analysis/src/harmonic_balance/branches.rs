@@ -3,6 +3,7 @@
 use halfshaft_model::question::StabilityMethod;
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
+use halfshaft_results::SpecialKind;
 
 use super::line::Line;
 use super::problem::{Axis, Problem};
@@ -58,6 +59,10 @@ pub(super) struct Job<'j, 'f> {
 
 /// Responses this near to a branch, relative, are on it.
 const SAME: f64 = 1e-5;
+/// Responses farther than this from the chord of two samples are not between them, in the metric.
+const REACH: f64 = 0.1;
+/// Samples this near to a branch, relative, run along it: the miss of its straight pieces.
+const ALONG: f64 = 5e-3;
 /// Guesses this near to a branch are not worth a try.
 pub(super) const NEAR: f64 = 0.02;
 
@@ -112,6 +117,7 @@ impl<'j, 'f> Job<'j, 'f> {
         all.counted.iterations += tracer.counted.iterations;
         all.exhausted |= tracer.exhausted;
         drop(tracer);
+        merge_duplicates(&mut all.branches);
         if self.judged {
             self.branch_off(&mut all);
         }
@@ -121,7 +127,8 @@ impl<'j, 'f> Job<'j, 'f> {
 
     /// Harmonics to begin with.
     fn start_set(&self, set: &HarmonicSet) -> HarmonicSet {
-        set.up_to(self.settings.harmonics.unwrap_or(super::tracer::LEAST_HARMONICS))
+        let least = super::tracer::LEAST_HARMONICS.max(set.highest());
+        set.up_to(self.settings.harmonics.unwrap_or(least))
     }
 
     pub(super) fn both_ways(
@@ -187,8 +194,37 @@ impl<'j, 'f> Job<'j, 'f> {
                 let pair = (&samples[special.after], &samples[special.after + 1]);
                 refine(self.line, base, pair, special);
             }
+            // Harmonics that come and go make a curve with kinks waver: what no orbit confirms is no
+            // fold.
+            specials.retain(|special| {
+                special.kind != SpecialKind::Fold || special.precision.is_finite()
+            });
         }
         TracedBranch { samples, stability, specials, base, periods, origin, ends }
+    }
+}
+
+/// Drops branches that run along another: pieces of it that were followed from a seed of their own.
+fn merge_duplicates(branches: &mut Vec<TracedBranch>) {
+    let along = |piece: &TracedBranch, whole: &TracedBranch| {
+        let count = piece.samples.len();
+        count > 0
+            && piece.base == whole.base
+            && [count / 4, count / 2, 3 * count / 4].into_iter().all(|at| {
+                let sample = &piece.samples[at];
+                on_branch(whole, &sample.set, &sample.u, sample.p, ALONG)
+            })
+    };
+    let mut at = 0;
+    while at < branches.len() {
+        let piece = &branches[at];
+        let longer = |other: &TracedBranch| other.samples.len() > piece.samples.len();
+        let duplicate = branches.iter().any(|whole| longer(whole) && along(piece, whole));
+        if duplicate {
+            branches.remove(at);
+        } else {
+            at += 1;
+        }
     }
 }
 
@@ -239,28 +275,30 @@ fn distance(branch: &TracedBranch, set: &HarmonicSet, u: &[f64], p: f64) -> Opti
         .reduce(f64::min)
 }
 
-/// Whether a response is met by correcting the nearest response of a branch at its parameter.
+/// Whether a response is met by correcting the nearest places of a branch, each in the plane across
+/// the branch in which the response lies: that works at folds as well as elsewhere.
 fn refined(tracer: &mut Tracer<'_, '_>, branch: &TracedBranch, sample: &Sample) -> bool {
-    let pairs: Vec<(Vec<f64>, f64)> = branch
-        .samples
-        .windows(2)
-        .filter(|pair| (pair[0].p - sample.p) * (pair[1].p - sample.p) <= 0.0)
-        .map(|pair| {
-            let fit = |s: &Sample| refit(&s.set, &sample.set, 1, &s.u);
-            let (a, b) = (fit(&pair[0]), fit(&pair[1]));
-            let span = pair[1].p - pair[0].p;
-            let part = if span == 0.0 { 0.5 } else { (sample.p - pair[0].p) / span };
-            let u: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + part * (b - a)).collect();
-            let away: f64 = u.iter().zip(&sample.u).map(|(a, b)| (a - b) * (a - b)).sum();
-            (u, away.sqrt())
-        })
-        .collect();
     let size = length(&sample.u).max(f64::MIN_POSITIVE.sqrt());
-    pairs.into_iter().filter(|(_, away)| *away < 0.2 * size).any(|(mut u, _)| {
-        let mut same = u.clone();
-        tracer.use_set(&sample.set, &mut same, &sample.set);
-        let done = tracer.problem.at(&mut u, sample.p, size);
-        let away: f64 = u.iter().zip(&sample.u).map(|(a, b)| (a - b) * (a - b)).sum();
-        done.is_ok() && away.sqrt() < SAME * size
+    branch.samples.windows(2).any(|pair| {
+        let fit = |s: &Sample| refit(&s.set, &sample.set, 1, &s.u);
+        let (a, b) = (fit(&pair[0]), fit(&pair[1]));
+        let metric = tracer.metric(&a);
+        let from_a = |u: &[f64]| u.iter().zip(&a).map(|(u, a)| u - a).collect::<Vec<f64>>();
+        let (chord, chord_p) = (from_a(&b), pair[1].p - pair[0].p);
+        let (d, d_p) = (from_a(&sample.u), sample.p - pair[0].p);
+        let square = metric.norm(&chord, chord_p).powi(2);
+        let part = metric.dot((&d, d_p), (&chord, chord_p)) / square;
+        if !(-0.05..=1.05).contains(&part) {
+            return false;
+        }
+        let off: Vec<f64> = d.iter().zip(&chord).map(|(d, c)| d - part * c).collect();
+        if metric.norm(&off, d_p - part * chord_p) > REACH {
+            return false;
+        }
+        let Ok(place) = tracer.on_segment((&pair[0], &pair[1]), part, &sample.set) else {
+            return false;
+        };
+        let away = place.u.iter().zip(&sample.u).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        away.sqrt() < SAME * size && (place.p - sample.p).abs() < SAME * metric.span
     })
 }

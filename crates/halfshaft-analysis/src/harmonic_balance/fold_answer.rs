@@ -19,8 +19,9 @@ use halfshaft_results::{
 use super::answer::Setting;
 use super::branches::Job;
 use super::channels::{Channels, names};
+use super::fold_points::on_curve;
 use super::fold_system::{FoldSample, FoldSystem};
-use super::fold_trace::{FoldCurve, FoldSettings, FoldTracer, on_curve};
+use super::fold_trace::{FoldCurve, FoldSettings, FoldTracer};
 use super::line::{Line, nonlinear};
 use super::lines::Lines;
 use super::problem::{Axis, Problem};
@@ -188,7 +189,7 @@ impl Plane<'_, '_> {
             Setting::new(Rc::clone(&equations), Some(self.window), self.question.mode)?;
         setting.odd = shape.odd;
         setting.line = Line::flagged(equations, &shape.flags);
-        let seeds = setting.seeds(observer, counted);
+        let seeds = setting.seeds(self.question.harmonics, observer, counted);
         let job = Job {
             line: &setting.line,
             axis: Axis::Frequency,

@@ -161,7 +161,8 @@ fn secant(
         let value = test(shooter, &orbit)?;
         let step = -value * (s - s_before) / (value - value_before);
         let settled = step.abs() <= SETTLED * path.size;
-        let stalled = value == value_before || (value.abs() >= value_before.abs() && value.abs() < 1e-11);
+        let stalled =
+            value == value_before || (value.abs() >= value_before.abs() && value.abs() < 1e-11);
         if settled || stalled || value == 0.0 {
             let left = if step.is_finite() { step * path.along_frequency } else { 0.0 };
             return Ok(Some((orbit, left.abs())));

@@ -3,7 +3,8 @@
 //! At a fixed speed the response is followed over the drive (the factor on all harmonic torques)
 //! with one harmonic only, from almost nothing to well beyond 1. That curve passes 1 once for each
 //! response it is connected with, also for those on detached branches, which no sweep of the speed
-//! reaches.
+//! reaches unless they are narrower than the distance of the chosen speeds: for those see
+//! [`super::tips`].
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::harmonics::HarmonicSet;
@@ -22,7 +23,7 @@ pub(super) struct Seed {
 }
 
 /// Drive at which a curve begins.
-const FIRST_DRIVE: f64 = 1e-3;
+pub(super) const FIRST_DRIVE: f64 = 1e-3;
 /// Drive to which a curve is followed.
 const LAST_DRIVE: f64 = 20.0;
 /// Samples of a curve at most.
@@ -30,7 +31,30 @@ const MOST_SAMPLES: usize = 300;
 /// Miss of the tangent on these rough curves.
 const ROUGH: f64 = 0.06;
 
+/// The curve over the drive at one speed.
+#[derive(Clone, Debug)]
+pub(super) struct DriveCurve {
+    pub(super) frequency: f64,
+    pub(super) set: HarmonicSet,
+    /// Every passage of the drive through 1.
+    pub(super) seeds: Vec<Seed>,
+    /// Where the torques of an order do no reactive work.
+    pub(super) quadratures: Vec<Quadrature>,
+    /// Reactive work of each order at the lowest drive, and the response there.
+    pub(super) first: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+/// A response near one in quadrature with the torques of an order.
+#[derive(Clone, Debug)]
+pub(super) struct Quadrature {
+    pub(super) order: usize,
+    pub(super) u: Vec<f64>,
+    pub(super) frequency: f64,
+    pub(super) drive: f64,
+}
+
 /// Seeds at one speed: every passage of the drive through 1.
+#[expect(clippy::too_many_arguments, reason = "what a curve over the drive needs, once")]
 pub(super) fn over_drive(
     line: &Line,
     rest: &[f64],
@@ -42,9 +66,24 @@ pub(super) fn over_drive(
     counted: &mut Counted,
 ) -> Vec<Seed> {
     let set = if odd { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) };
+    drive_curve(line, rest, base, &set, &[], frequency, observer, counted).seeds
+}
+
+/// Follows the response over the drive at one speed.
+#[expect(clippy::too_many_arguments, reason = "what a curve over the drive needs, once")]
+pub(super) fn drive_curve(
+    line: &Line,
+    rest: &[f64],
+    base: f64,
+    set: &HarmonicSet,
+    orders: &[usize],
+    frequency: f64,
+    observer: &dyn Observer,
+    counted: &mut Counted,
+) -> DriveCurve {
     let system = HarmonicSystem::new(line.clone(), set.clone(), base);
     let place = Place { frequency, drive: FIRST_DRIVE };
-    let u = at_rest(line, rest, &set);
+    let u = at_rest(line, rest, set);
     let problem = Problem::new(system, Axis::Drive, place);
     let settings = TraceSettings {
         range: (0.0, LAST_DRIVE),
@@ -56,19 +95,53 @@ pub(super) fn over_drive(
         most_size: f64::INFINITY,
     };
     let mut tracer = Tracer::new(problem, settings, observer);
-    let mut seeds = Vec::new();
-    if let Ok(start) = tracer.seed(&set, &u, FIRST_DRIVE) {
+    let mut curve = DriveCurve {
+        frequency,
+        set: set.clone(),
+        seeds: Vec::new(),
+        quadratures: Vec::new(),
+        first: None,
+    };
+    if let Ok(start) = tracer.seed(set, &u, FIRST_DRIVE) {
         let sign = if start.tangent_p < 0.0 { -1.0 } else { 1.0 };
         let (samples, _) = tracer.follow(&start, sign);
         for pair in samples.windows(2) {
-            if let Some(seed) = passage(&mut tracer, &pair[0], &pair[1]) {
-                seeds.push(seed);
+            curve.seeds.extend(passage(&mut tracer, &pair[0], &pair[1]));
+        }
+        // At one speed the torques of drive 1 are the same all along.
+        let torques = tracer.problem.system.by_drive.clone();
+        let mut sides = Vec::with_capacity(orders.len());
+        for &order in orders {
+            let reactive: Vec<f64> =
+                samples.iter().map(|sample| reactive(set, &torques, &sample.u, order)).collect();
+            sides.push(reactive[0]);
+            let pairs = samples.windows(2).zip(reactive.windows(2));
+            for (pair, values) in pairs.filter(|(_, values)| values[0] * values[1] < 0.0) {
+                let part = values[0] / (values[0] - values[1]);
+                let mix = |(a, b): (&f64, &f64)| a + part * (b - a);
+                curve.quadratures.push(Quadrature {
+                    order,
+                    u: pair[0].u.iter().zip(&pair[1].u).map(mix).collect(),
+                    frequency,
+                    drive: mix((&pair[0].p, &pair[1].p)),
+                });
             }
         }
+        curve.first = Some((sides, samples[0].u.clone()));
     }
     counted.iterations += tracer.counted.iterations;
     counted.steps += tracer.counted.steps;
-    seeds
+    curve
+}
+
+/// Reactive work of the torques of an order, up to a positive factor: zero in phase resonance.
+pub(super) fn reactive(set: &HarmonicSet, torques: &[f64], u: &[f64], order: usize) -> f64 {
+    let Some(place) = set.place_of(order) else { return 0.0 };
+    let m = set.coefficients();
+    let of = |(torque, response): (&[f64], &[f64])| {
+        torque[place] * response[place] + torque[place + 1] * response[place + 1]
+    };
+    torques.chunks_exact(m).zip(u.chunks_exact(m)).map(of).sum()
 }
 
 /// The response of drive 1 between two samples of a curve over the drive.

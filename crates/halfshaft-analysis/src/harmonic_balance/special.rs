@@ -62,6 +62,16 @@ struct Segment<'s> {
 }
 
 impl Tracer<'_, '_> {
+    /// The response of the branch in the plane across the chord of two samples at a part of it.
+    pub(super) fn on_segment(
+        &mut self,
+        (from, to): (&Sample, &Sample),
+        part: f64,
+        set: &HarmonicSet,
+    ) -> Result<Sample, Failure> {
+        self.between(&Segment { from, to }, part, set)
+    }
+
     /// The response at a part (0 to 1) of the way between two samples, over a set of harmonics.
     fn between(
         &mut self,
@@ -184,7 +194,7 @@ impl Tracer<'_, '_> {
                 (high, at_high) = (middle, value);
             }
         }
-        if !(at_low * at_high <= 0.0) {
+        if at_low * at_high > 0.0 || (at_low * at_high).is_nan() {
             return None;
         }
         let settings = RootSettings {
@@ -334,10 +344,10 @@ impl Tracer<'_, '_> {
         for crossing in &changes {
             match crossing {
                 Crossing::MinusOne => {
-                    wanted.push((SpecialKind::PeriodDoubling, Test::Crossing(*crossing)))
+                    wanted.push((SpecialKind::PeriodDoubling, Test::Crossing(*crossing)));
                 }
                 Crossing::Pair => {
-                    wanted.push((SpecialKind::NeimarkSacker, Test::Crossing(*crossing)))
+                    wanted.push((SpecialKind::NeimarkSacker, Test::Crossing(*crossing)));
                 }
                 // Without the mirror symmetry a multiplier passes 1 at every fold.
                 Crossing::One if mirrored => {

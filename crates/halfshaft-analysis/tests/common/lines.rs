@@ -159,7 +159,11 @@ pub fn geared() -> String {
         .shaft("right", "hub flange", "right wheel", &keys(400.0, 4.0, "quadratic = 50"))
         .shaft("left road", "left wheel", "ground", "stiffness = 120")
         .shaft("right road", "right wheel", "ground", "stiffness = 150")
-        .torque("drive", "engine", "mean = 5\namplitude = 3\nharmonics = [{ order = 2, amplitude = 1 }]")
+        .torque(
+            "drive",
+            "engine",
+            "mean = 5\namplitude = 3\nharmonics = [{ order = 2, amplitude = 1 }]",
+        )
         .0
 }
 

@@ -28,7 +28,8 @@ fn compare(found: &Traced, every: usize) -> f64 {
     for branch in found.collected.branches.iter().filter(|branch| branch.periods == 1) {
         for sample in branch.samples.iter().step_by(every) {
             let place = Place { frequency: sample.p, drive: 1.0 };
-            let new = |line: &Line| HarmonicSystem::new(line.clone(), sample.set.clone(), branch.base);
+            let new =
+                |line: &Line| HarmonicSystem::new(line.clone(), sample.set.clone(), branch.base);
             let mut condensed = new(&found.setting.line);
             let series = group_series(&mut condensed, &sample.u, place);
             let mut problem = Problem::new(new(&full), Axis::Frequency, place);
@@ -72,7 +73,6 @@ fn a_row_of_fifty_is_the_full_row() {
     for held in [true, false] {
         let found = traced(&lines::long_row(50, 20, held), (3.4, 4.6));
         assert_eq!(found.setting.line.nodes(), 2);
-        for b in &found.collected.branches { eprintln!("{} {:?} {} samples p {}..{}", b.origin, b.ends, b.samples.len(), b.samples[0].p, b.samples.last().unwrap().p); for s in &b.specials { eprintln!("  {:?} {} {:?} {:?} H{}", s.kind, s.sample.p, s.located, s.precision, s.sample.set.highest()); } }
         let worst = compare(&found, 4);
         assert!(worst < 1e-10, "{worst:e}, held: {held}");
     }

@@ -74,8 +74,7 @@ impl Waveform<'_> {
         let m = self.set.coefficients();
         let groups = self.series.len() / m;
         let zero = vec![0.0; groups];
-        let mut moment =
-            Moment { angles: zero.clone(), speeds: zero.clone(), accelerations: zero };
+        let mut moment = Moment { angles: zero.clone(), speeds: zero.clone(), accelerations: zero };
         for (group, x) in self.series.chunks_exact(m).enumerate() {
             for (order, place) in self.set.places() {
                 if order == 0 {
@@ -197,9 +196,8 @@ const MOMENTS: usize = 24;
 pub(super) fn shoot(wave: &Waveform<'_>) -> Option<Shot> {
     let mut motion = ElasticMotion::new(wave.equations, wave.frequency);
     let (n, dimension) = (motion.twists(), motion.dimension());
-    let states: Vec<Vec<f64>> = (0..MOMENTS)
-        .map(|k| wave.state(TAU * k as f64 / MOMENTS as f64, &motion))
-        .collect();
+    let states: Vec<Vec<f64>> =
+        (0..MOMENTS).map(|k| wave.state(TAU * k as f64 / MOMENTS as f64, &motion)).collect();
     let largest = |range: std::ops::Range<usize>| {
         states.iter().flat_map(|s| s[range.clone()].to_vec()).fold(0.0_f64, |a, b| a.max(b.abs()))
     };
@@ -235,7 +233,8 @@ pub(super) fn apart(a: &[Complex], b: &[Complex]) -> f64 {
     let mut most = 0.0_f64;
     for one in a {
         let distance = |other: &Complex| (*one - *other).modulus();
-        let nearest = (0..left.len()).min_by(|i, j| distance(&left[*i]).total_cmp(&distance(&left[*j])));
+        let nearest =
+            (0..left.len()).min_by(|i, j| distance(&left[*i]).total_cmp(&distance(&left[*j])));
         let other = left.swap_remove(nearest.expect("as many in both"));
         most = most.max(distance(&other) / one.modulus().max(1.0));
     }
@@ -307,7 +306,8 @@ pub(super) fn brute_force(
             (0..dimension).map(|k| size * part(k) * if k < n { 1.0 } else { speed }).collect();
         let Ok(orbit) = find_orbit(&mut motion, 0.0, period, &guess, &settings) else { continue };
         let largest = orbit.state[..n].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if !orbit.report.converged.is_converged() || orbit.residual > 1e-6 || largest > 10.0 * size {
+        if !orbit.report.converged.is_converged() || orbit.residual > 1e-6 || largest > 10.0 * size
+        {
             continue;
         }
         let same = |other: &Vec<f64>| {

@@ -49,7 +49,7 @@ fn traced(text: &str, range: (f64, f64), tolerance: f64) -> Traced {
 
 fn traced_with(setting: Setting, tolerance: f64, harmonics: Option<usize>) -> Traced {
     let mut counted = Counted::default();
-    let seeds = setting.seeds(&Silent, &mut counted);
+    let seeds = setting.seeds(harmonics, &Silent, &mut counted);
     let job = Job {
         line: &setting.line,
         axis: Axis::Frequency,
@@ -59,6 +59,7 @@ fn traced_with(setting: Setting, tolerance: f64, harmonics: Option<usize>) -> Tr
         observer: &Silent,
         doublings: true,
         judged: true,
+        stability: halfshaft_model::question::StabilityMethod::Monodromy,
     };
     let collected = job.collect(&seeds);
     Traced { setting, collected }
