@@ -84,6 +84,7 @@ impl<'j, 'f> Job<'j, 'f> {
         let Some((first, _, _)) = seeds.first() else { return all };
         let mut tracer = self.tracer(first.set.clone(), self.base);
         let mut judge = Judge::new(&tracer.problem.system, self.stability);
+        let mut lost = Vec::new();
         for (seed, p, origin) in seeds {
             if self.observer.cancelled() {
                 all.cancelled = true;
@@ -107,11 +108,10 @@ impl<'j, 'f> Job<'j, 'f> {
                     let branch = self.both_ways(&mut tracer, &mut judge, &sample, origin.clone());
                     all.branches.push(branch);
                 }
-                Err(_) => all.messages.push(format!(
-                    "a response guessed by one harmonic at {p:.6} could not be made one of more harmonics"
-                )),
+                Err(_) => lost.push(*p),
             }
         }
+        all.messages.extend(lost_guesses(&lost));
         all.counted.seeds = tracer.counted.seeds;
         all.counted.steps += tracer.counted.steps;
         all.counted.iterations += tracer.counted.iterations;
@@ -232,6 +232,20 @@ pub(super) fn flip(sample: &mut Sample) {
     sample.tangent.iter_mut().for_each(|x| *x = -*x);
     sample.tangent_p = -sample.tangent_p;
     sample.orientation = -sample.orientation;
+}
+
+/// What to say of guesses by one harmonic that led to no response.
+fn lost_guesses(lost: &[f64]) -> Option<String> {
+    let mut speeds: Vec<String> = lost.iter().map(|p| format!("{p:.6}")).collect();
+    speeds.dedup();
+    (!speeds.is_empty()).then(|| {
+        format!(
+            "{} guessed by one harmonic could not be made one of more harmonics, at {}: either there is \
+             none, or it is too far from one harmonic",
+            if lost.len() == 1 { "a response" } else { "responses" },
+            speeds.join(", ")
+        )
+    })
 }
 
 /// Whether a response lies on a branch, to a part of its size.

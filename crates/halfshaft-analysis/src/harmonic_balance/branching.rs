@@ -102,6 +102,14 @@ impl Fork {
         refit(&self.old, &self.set, factor, &small)
     }
 
+    /// Whether a branch may be the one that branches off.
+    fn may_be(&self, branch: &TracedBranch) -> bool {
+        let mirrored = branch.samples.first().is_some_and(|sample| sample.set.is_odd());
+        branch.periods == self.periods
+            && branch.base == self.base
+            && !(mirrored && self.parting == Parting::Mirror)
+    }
+
     /// The response at the fork as the first or last of the new branch.
     fn sample(&self, along: (&[f64], f64), metric: &Metric, like: &Sample) -> Sample {
         Sample {
@@ -137,7 +145,7 @@ impl Job<'_, '_> {
                 if is_end(&all.branches, &fork) {
                     continue;
                 }
-                match self.switch(all, special, &fork) {
+                match self.switch(all, at, special, &fork) {
                     Switched::Found(found) => all.branches.push(found),
                     Switched::Known => {}
                     Switched::Lost => all.messages.push(format!(
@@ -152,7 +160,13 @@ impl Job<'_, '_> {
     }
 
     /// The branch that crosses at a fork.
-    fn switch(&self, all: &mut Collected, special: &Special, fork: &Fork) -> Switched {
+    fn switch(
+        &self,
+        all: &mut Collected,
+        parent: usize,
+        special: &Special,
+        fork: &Fork,
+    ) -> Switched {
         let mut tracer = self.tracer(fork.set.clone(), fork.base);
         let metric = tracer.metric(&fork.u);
         let old =
@@ -163,10 +177,8 @@ impl Job<'_, '_> {
         let Some(start) = first(&mut tracer, fork, (&null.0, null.1), &metric) else {
             return Switched::Lost;
         };
-        let known = all.branches.iter().any(|other| {
-            other.periods == fork.periods && other.base == fork.base && on_mirrored(other, &start)
-        });
-        if known {
+        let mut others = all.branches.iter().enumerate().filter(|(at, _)| *at != parent);
+        if others.any(|(_, other)| fork.may_be(other) && on_mirrored(other, &start)) {
             return Switched::Known;
         }
         let mut judge = Judge::new(&tracer.problem.system, self.stability);
@@ -347,8 +359,7 @@ fn is_end(branches: &[TracedBranch], fork: &Fork) -> bool {
     };
     branches
         .iter()
-        .filter(|other| other.periods == fork.periods && other.base == fork.base)
-        .filter(|other| other.ends.contains(&BranchEnd::Enough))
+        .filter(|other| fork.may_be(other) && other.ends.contains(&BranchEnd::Enough))
         .any(|other| [other.samples.first(), other.samples.last()].into_iter().flatten().any(close))
 }
 

@@ -7,12 +7,14 @@ use halfshaft_results::Named;
 
 use super::system::{HarmonicSystem, Place, differentiate};
 
-/// Mean, modulus of the first harmonic and half of peak to peak of one channel.
+/// Mean, modulus of the first harmonic, half of peak to peak and both peaks of one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ChannelValue {
     pub(crate) amplitude: f64,
     pub(crate) mean: f64,
     pub(crate) harmonic1: f64,
+    pub(crate) maximum: f64,
+    pub(crate) minimum: f64,
 }
 
 /// Measures the channels of responses over one set of harmonics.
@@ -113,7 +115,13 @@ impl Channels {
         self.sampler.samples(&self.set, coefficients, &mut self.samples);
         let top = self.extreme(coefficients, 1.0);
         let bottom = if self.set.is_odd() { -top } else { self.extreme(coefficients, -1.0) };
-        ChannelValue { amplitude: 0.5 * (top - bottom), mean, harmonic1 }
+        ChannelValue {
+            amplitude: 0.5 * (top - bottom),
+            mean,
+            harmonic1,
+            maximum: top,
+            minimum: bottom,
+        }
     }
 
     /// The greatest value (least for a sign of -1) of a series whose samples are at hand.
@@ -161,7 +169,10 @@ impl Channels {
             let sum: Vec<f64> =
                 twist.iter().zip(rate).map(|(x, v)| k * x + connection.damping * v).collect();
             let mut value = self.series(&sum);
-            value.mean = connection.law.torque(0.0) + k * of_twist.mean;
+            let preload = connection.law.torque(0.0);
+            value.mean = preload + k * of_twist.mean;
+            value.maximum += preload;
+            value.minimum += preload;
             return value;
         }
         self.sampler.samples(&self.set, twist, &mut self.samples);
@@ -196,6 +207,8 @@ impl Channels {
             amplitude: 0.5 * (ends[0] - ends[1]),
             mean: scale * mean,
             harmonic1: 2.0 * scale * sum.modulus(),
+            maximum: ends[0],
+            minimum: ends[1],
         }
     }
 }
@@ -272,6 +285,8 @@ pub(super) fn named(equations: &EquationsOfMotion, values: &[ChannelValue]) -> N
         out.insert(format!("{name}.amplitude"), value.amplitude);
         out.insert(format!("{name}.mean"), value.mean);
         out.insert(format!("{name}.harmonic1"), value.harmonic1);
+        out.insert(format!("{name}.maximum"), value.maximum);
+        out.insert(format!("{name}.minimum"), value.minimum);
     }
     out
 }

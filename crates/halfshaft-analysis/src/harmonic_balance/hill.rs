@@ -66,7 +66,7 @@ pub(super) fn multipliers(
     };
     let mut values: Vec<Complex> = candidates.iter().map(of).map(real_where_real).collect();
     if space.with_angle {
-        without_angle(&mut values, if set.is_odd() { -1.0 } else { 1.0 });
+        without_angle(&mut values);
     }
     values.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
     Ok(values)
@@ -78,8 +78,8 @@ fn real_where_real(value: Complex) -> Complex {
 }
 
 /// The angle of a free line as a whole is no part of its responses.
-fn without_angle(values: &mut Vec<Complex>, neutral: f64) {
-    let away = |value: &Complex| (*value - Complex::from(neutral)).modulus();
+fn without_angle(values: &mut Vec<Complex>) {
+    let away = |value: &Complex| (*value - Complex::from(1.0)).modulus();
     let nearest = (0..values.len()).min_by(|a, b| away(&values[*a]).total_cmp(&away(&values[*b])));
     if let Some(nearest) = nearest {
         values.swap_remove(nearest);

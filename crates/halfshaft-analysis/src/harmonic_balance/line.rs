@@ -103,6 +103,12 @@ impl Line {
         })
     }
 
+    /// Pieces of the laws of the nonlinear connections.
+    pub(super) fn pieces(&self) -> Vec<halfshaft_dynamics::laws::Pieces> {
+        let laws = self.twists.iter().map(|t| &self.equations.connections[t.connection].law);
+        laws.map(halfshaft_dynamics::laws::TorqueLaw::pieces).collect()
+    }
+
     /// Number of nodes of the block system.
     pub(super) fn nodes(&self) -> usize {
         self.skeleton.kept.len()

@@ -4,7 +4,7 @@
 //! | file | task |
 //! |---|---|
 //! | `skeleton`, `condensed`, `line` | the linear rest of the line taken out, harmonic by harmonic |
-//! | `system` | residual and Jacobian (alternating frequency-time) |
+//! | `system`, `kinks` | residual and Jacobian (alternating frequency-time; from kink to kink) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer`, `closing` | pseudo-arclength continuation |
 //! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
@@ -31,6 +31,7 @@ mod fold_trace;
 mod grazing;
 mod hill;
 mod jumps;
+mod kinks;
 pub mod layers;
 mod line;
 mod lines;

@@ -24,6 +24,47 @@ const SETTLED: f64 = 1e-13;
 /// Found points are moved by this part of the distance of their samples at most; further is another.
 const FARTHEST: f64 = 1.0;
 
+/// Lines of more groups than this keep the multipliers along the harmonics: an orbit of its own for
+/// each sample would cost too much.
+const MOST_GROUPS: usize = 16;
+/// Orbits further than this from their response, relative, are others.
+const WANDERED: f64 = 1e-3;
+/// Step along the tangent by which its direction in the state is found, relative.
+const ALONG: f64 = 1e-4;
+
+/// The stability of the exact orbit beside a response, across the branch: where a law has kinks
+/// multipliers along truncated harmonics have lost more digits than the waveform.
+pub(super) fn exact_stability(line: &Line, base: f64, sample: &Sample) -> Option<Stability> {
+    if line.equations.groups() > MOST_GROUPS {
+        return None;
+    }
+    let mirrored = sample.set.is_odd();
+    let mut shooter = Shooter::new(&line.equations, base, sample.p, mirrored);
+    let coordinates = shooter.coordinates();
+    let state = state_of(line, base, sample, &coordinates);
+    let mut ahead = sample.clone();
+    let step = ALONG * super::tracer::length(&sample.u).max(f64::MIN_POSITIVE.sqrt())
+        / super::tracer::length(&sample.tangent).max(f64::MIN_POSITIVE.sqrt());
+    let step = step.min(ALONG * sample.p / sample.tangent_p.abs().max(f64::MIN_POSITIVE.sqrt()));
+    ahead.u.iter_mut().zip(&sample.tangent).for_each(|(u, t)| *u += step * t);
+    ahead.p += step * sample.tangent_p;
+    let mut row = state_of(line, base, &ahead, &coordinates);
+    row.iter_mut().zip(&state).for_each(|(a, b)| *a -= b);
+    let corner = (ahead.p - sample.p) / sample.p;
+    let size = length(&row).hypot(corner);
+    row.iter_mut().for_each(|x| *x /= size);
+    let corner = corner / size;
+    let held: f64 = row.iter().zip(&state).map(|(r, x)| r * x).sum();
+    let plane = Plane { row: &row, corner, target: held + corner };
+    let orbit = shooter.correct(&state, sample.p, &plane).ok()?;
+    let away: Vec<f64> = orbit.state.iter().zip(&state).map(|(a, b)| a - b).collect();
+    let far = length(&away).hypot((orbit.frequency - sample.p) / sample.p * length(&state));
+    if far > WANDERED * length(&state) {
+        return None;
+    }
+    Some(Stability::of(orbit.multipliers().ok()?, mirrored))
+}
+
 /// Branch of exact orbits near a special point: tangent from one of them.
 struct Path {
     start: Orbit,
@@ -37,7 +78,7 @@ pub(super) fn refine(line: &Line, base: f64, pair: (&Sample, &Sample), special: 
     let mirrored = special.sample.set.is_odd();
     let mut shooter = Shooter::new(&line.equations, base, special.sample.p, mirrored);
     let Ok(Some(found)) = locate(line, base, pair, special, &mut shooter) else { return };
-    let (orbit, moved) = found;
+    let (orbit, left) = found;
     let Ok(multipliers) = orbit.multipliers() else { return };
     let highest = (2 * special.sample.set.highest()).clamp(64, MOST_HARMONICS);
     let set = special.sample.set.up_to(highest);
@@ -48,11 +89,11 @@ pub(super) fn refine(line: &Line, base: f64, pair: (&Sample, &Sample), special: 
     sample.u = u;
     sample.p = orbit.frequency;
     special.stability = Some(Stability::of(multipliers, mirrored));
-    special.precision = moved.max(f64::EPSILON);
+    special.precision = left.max(f64::EPSILON);
     special.located = true;
 }
 
-/// The orbit at the special point, and how far the speed moved last, relative.
+/// The orbit at the special point, and how far its speed would still move, relative.
 fn locate(
     line: &Line,
     base: f64,
@@ -118,13 +159,13 @@ fn secant(
     for _ in 0..MOST_STEPS {
         let orbit = path.at(shooter, s, &near)?;
         let value = test(shooter, &orbit)?;
-        let moved = (orbit.frequency - near.frequency).abs() / orbit.frequency;
         let step = -value * (s - s_before) / (value - value_before);
         let settled = step.abs() <= SETTLED * path.size;
         let stalled =
             value == value_before || (value.abs() >= value_before.abs() && value.abs() < 1e-11);
         if settled || stalled || value == 0.0 {
-            return Ok(Some((orbit, moved)));
+            let left = if step.is_finite() { step * path.along_frequency } else { 0.0 };
+            return Ok(Some((orbit, left.abs())));
         }
         if !step.is_finite() || (s + step).abs() > farthest {
             return Ok(None);

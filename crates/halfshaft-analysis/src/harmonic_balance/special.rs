@@ -7,12 +7,14 @@
 //! a bracketing method. Where the number of harmonics is free it is raised until the place stands
 //! still.
 
+use halfshaft_model::question::StabilityMethod;
 use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_results::SpecialKind;
 
 use super::grazing::{Touch, touches};
 use super::problem::{Axis, Condition, Failure, Metric};
+use super::refine::exact_stability;
 use super::stability::{Crossing, Judge, Stability, counted, crossings, pair_angle, test};
 use super::tracer::{MOST_HARMONICS, Sample, Tracer, refit};
 
@@ -142,6 +144,13 @@ impl Tracer<'_, '_> {
         if matches!(self.problem.axis, Axis::Parameter(_)) {
             self.problem.line_at(sample.p)?;
             *judge = Judge::new(&self.problem.system, judge.method());
+        }
+        let system = &self.problem.system;
+        if self.shoots()
+            && judge.method() == StabilityMethod::Monodromy
+            && let Some(exact) = exact_stability(&system.line, system.base, sample)
+        {
+            return Ok(exact);
         }
         judge.stability(&self.problem.system, &sample.u, place)
     }

@@ -89,12 +89,16 @@ impl Judge {
         let speed = system.fundamental(place);
         let orbit = Orbit { set: &system.set, speed, twists: &twists };
         let equations = &system.line.equations;
-        let raw = match self.method {
-            StabilityMethod::Monodromy => self
+        let by_hill = (self.method == StabilityMethod::Hill)
+            .then(|| super::hill::multipliers(equations, &orbit).ok())
+            .flatten();
+        let raw = match by_hill {
+            Some(values) => values,
+            // Also where Hill's method does not converge.
+            None => self
                 .variational
                 .multipliers(equations, &orbit)
                 .map_err(|_| Failure::NotConverged)?,
-            StabilityMethod::Hill => super::hill::multipliers(equations, &orbit)?,
         };
         Ok(Stability::of(raw, system.set.is_odd()))
     }

@@ -5,12 +5,16 @@
 //! part ([`super::condensed`]) and `f` the coefficients of the nonlinear torques by alternating
 //! frequency-time. A free line's mean angle is pinned at the last node.
 
+use halfshaft_dynamics::Connection;
+use halfshaft_dynamics::laws::Pieces;
 use halfshaft_numerics::Complex;
 use halfshaft_numerics::blocks::BlockSystem;
 use halfshaft_numerics::harmonics::{HarmonicSet, Sampler, Spectrum, add_product};
 
 use super::condensed::{Condensed, Dual};
+use super::kinks::{Force, KinkTransform, Spectra};
 use super::line::Line;
+use super::switching::phases;
 
 /// Where a response is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +43,9 @@ pub(super) struct HarmonicSystem {
     /// Estimate of the error that the orders left out make, relative to the amplitude.
     pub(super) truncation: f64,
     work: Work,
+    /// Pieces of the laws of the nonlinear connections.
+    pieces: Vec<Pieces>,
+    kinks: KinkTransform,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -50,8 +57,38 @@ struct Work {
     torque: Vec<f64>,
     slope: Vec<f64>,
     rate_slope: Vec<f64>,
-    spectrum: Spectrum,
+    spectra: Spectra,
     rate_product: Vec<f64>,
+}
+
+impl Work {
+    /// Spectra by uniform samples, for laws that are smooth along the motion; `samples` hold the
+    /// twist.
+    fn sample(
+        &mut self,
+        connection: &Connection,
+        sampler: &mut Sampler,
+        set: &HarmonicSet,
+        jacobian: bool,
+    ) {
+        connection.law.evaluate(&self.samples, &mut self.torque, &mut self.slope);
+        if let Some(friction) = &connection.friction {
+            sampler.samples(set, &self.rate, &mut self.samples);
+            for ((v, torque), slope) in
+                self.samples.iter().zip(&mut self.torque).zip(&mut self.rate_slope)
+            {
+                *torque += friction.torque(*v);
+                *slope = friction.slope(*v);
+            }
+        }
+        sampler.spectrum(&mut self.torque, &mut self.spectra.torque);
+        if jacobian {
+            sampler.spectrum(&mut self.slope, &mut self.spectra.slope);
+            if connection.friction.is_some() {
+                sampler.spectrum(&mut self.rate_slope, &mut self.spectra.rate_slope);
+            }
+        }
+    }
 }
 
 /// Samples a period at least, for laws with kinks.
@@ -94,7 +131,7 @@ impl HarmonicSystem {
             torque: vec![0.0; count],
             slope: vec![0.0; count],
             rate_slope: vec![0.0; count],
-            spectrum: Spectrum::default(),
+            spectra: Spectra::default(),
             rate_product: vec![0.0; m * m],
         };
         Self {
@@ -107,6 +144,8 @@ impl HarmonicSystem {
             place: None,
             sampler,
             work,
+            pieces: line.pieces(),
+            kinks: KinkTransform::default(),
             line,
             set,
             base,
@@ -220,33 +259,37 @@ impl HarmonicSystem {
         let work = &mut self.work;
         combine(twist, u, m, &mut work.twist);
         self.sampler.samples(&self.set, &work.twist, &mut work.samples);
-        connection.law.evaluate(&work.samples, &mut work.torque, &mut work.slope);
-        if let Some(friction) = &connection.friction {
+        if connection.friction.is_some() {
             differentiate(&self.set, &work.twist, speed, &mut work.rate);
-            self.sampler.samples(&self.set, &work.rate, &mut work.samples);
-            for ((v, torque), slope) in
-                work.samples.iter().zip(&mut work.torque).zip(&mut work.rate_slope)
-            {
-                *torque += friction.torque(*v);
-                *slope = friction.slope(*v);
-            }
         }
-        self.sampler.spectrum(&mut work.torque, &mut work.spectrum);
-        work.spectrum.coefficients(&self.set, &mut work.force);
+        let pieces = &self.pieces[index];
+        let phases = phases(pieces, &self.set, &work.twist, &work.samples);
+        if phases.is_empty() {
+            work.sample(connection, &mut self.sampler, &self.set, jacobian);
+        } else {
+            let force = Force {
+                set: &self.set,
+                twist: &work.twist,
+                rate: &work.rate,
+                pieces,
+                friction: connection.friction.as_ref(),
+            };
+            self.kinks.transform(&force, &phases, &mut work.spectra);
+        }
+        work.spectra.torque.coefficients(&self.set, &mut work.force);
         for (node, factor) in &twist.parts {
             let target = &mut self.residual[node * m..(node + 1) * m];
             target.iter_mut().zip(&work.force).for_each(|(r, f)| *r += factor * f);
         }
-        let truncation = neglected(&work.spectrum, &self.set, speed, twist.mobility, &work.twist);
+        let truncation =
+            neglected(&work.spectra.torque, &self.set, speed, twist.mobility, &work.twist);
         if jacobian {
             let product = &mut self.products[index * m * m..(index + 1) * m * m];
             product.fill(0.0);
-            self.sampler.spectrum(&mut work.slope, &mut work.spectrum);
-            add_product(&self.set, &work.spectrum, 1.0, product);
+            add_product(&self.set, &work.spectra.slope, 1.0, product);
             if connection.friction.is_some() {
-                self.sampler.spectrum(&mut work.rate_slope, &mut work.spectrum);
                 work.rate_product.fill(0.0);
-                add_product(&self.set, &work.spectrum, 1.0, &mut work.rate_product);
+                add_product(&self.set, &work.spectra.rate_slope, 1.0, &mut work.rate_product);
                 add_rate(&self.set, &work.rate_product, speed, product);
                 for (node, factor) in &twist.parts {
                     let target = &mut self.by_frequency[node * m..(node + 1) * m];
@@ -389,8 +432,8 @@ fn add_rate(set: &HarmonicSet, product: &[f64], speed: f64, out: &mut [f64]) {
     }
 }
 
-/// How much twist the orders of the torque beyond the set would make, over the twist's amplitude:
-/// there the line yields like its inertias alone.
+/// How much twist the orders of the torque beyond the set would make, over the vibration's size, both
+/// by root mean square: there the line yields like its inertias alone.
 fn neglected(
     spectrum: &Spectrum,
     set: &HarmonicSet,
@@ -398,19 +441,21 @@ fn neglected(
     mobility: f64,
     twist: &[f64],
 ) -> f64 {
-    let size: f64 = twist.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mean = usize::from(!set.is_odd());
+    let size: f64 = twist[mean..].iter().map(|x| x * x).sum::<f64>().sqrt();
     if size == 0.0 {
         return 0.0;
     }
     let beyond = spectrum.values().iter().enumerate().skip(set.highest() + 1);
     let sum: f64 =
-        beyond.map(|(order, value)| 2.0 * value.modulus() / (order * order) as f64).sum();
-    sum * mobility / (speed * speed) / size
+        beyond.map(|(order, f)| (2.0 * f.modulus() / (order * order) as f64).powi(2)).sum();
+    sum.sqrt() * mobility / (speed * speed) / size
 }
 
 impl HarmonicSystem {
     /// Takes another line of the same shape.
     pub(super) fn replace(&mut self, line: Line) {
+        self.pieces = line.pieces();
         self.line = line;
         self.place = None;
     }

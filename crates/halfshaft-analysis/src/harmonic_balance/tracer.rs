@@ -81,6 +81,8 @@ const SHORTEST: f64 = 1e-9;
 pub(crate) const MOST_HARMONICS: usize = 200;
 /// A last harmonic below this part of the tolerance is dropped.
 const SPARE: f64 = 0.01;
+/// The same for lines with kinks.
+const SPARE_AT_KINKS: f64 = 0.3;
 /// Harmonics that are always kept.
 pub(super) const LEAST_HARMONICS: usize = 3;
 
@@ -217,17 +219,12 @@ impl<'t, 'f> Tracer<'t, 'f> {
             return Some(set.up_to((highest + more).min(MOST_HARMONICS)));
         }
         self.exhausted |= truncation > tolerance;
-        let drop = if set.is_odd() { 2 } else { 1 };
-        let room = highest >= LEAST_HARMONICS + drop && truncation < SPARE * tolerance;
-        let m = set.coefficients();
-        let last: f64 = u
-            .chunks_exact(m)
-            .map(|node| {
-                let tail: f64 = node[m - 2..].iter().map(|x| x * x).sum();
-                tail.sqrt()
-            })
-            .fold(0.0, f64::max);
-        (room && last < SPARE * tolerance * length(u)).then(|| set.up_to(highest - drop))
+        // Where harmonics converge slowly a hundredth would take many more of them.
+        let spare = if self.problem.system.line.has_kinks() { SPARE_AT_KINKS } else { SPARE };
+        let enough = (truncation < spare * tolerance)
+            .then(|| enough(set, u, spare * tolerance * length(u)))
+            .filter(|enough| *enough < highest);
+        enough.map(|enough| set.up_to(enough))
     }
 
     /// Follows the curve from `start` in the direction of `sign` times its tangent.
@@ -375,6 +372,24 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let along = refit(&inside.set, &set, 1, &inside.tangent);
         self.finish_sample(set, u, border, &metric, Some((&along, inside.tangent_p))).ok()
     }
+}
+
+/// The lowest highest order beyond which the coefficients of no node are longer than `rest`.
+fn enough(set: &HarmonicSet, u: &[f64], rest: f64) -> usize {
+    let m = set.coefficients();
+    let (mut highest, step) = (set.highest(), if set.is_odd() { 2 } else { 1 });
+    let mut beyond = vec![0.0; u.len() / m];
+    while highest >= LEAST_HARMONICS + step {
+        let Some(place) = set.place_of(highest) else { break };
+        for (sum, node) in beyond.iter_mut().zip(u.chunks_exact(m)) {
+            *sum += node[place] * node[place] + node[place + 1] * node[place + 1];
+        }
+        if beyond.iter().any(|sum| sum.sqrt() >= rest) {
+            break;
+        }
+        highest -= step;
+    }
+    highest
 }
 
 /// Coefficients of all nodes over another set of harmonics.

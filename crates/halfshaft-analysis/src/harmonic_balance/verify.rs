@@ -9,7 +9,7 @@ use super::branches::{Collected, TracedBranch};
 use super::channels::group_series;
 use super::orbits::state_of;
 use super::system::{HarmonicSystem, Place};
-use super::tracer::Sample;
+use super::tracer::{BranchEnd, Sample};
 use crate::error::{AnalysisError, Doing};
 use crate::shooting::{Lost, Orbit, Sampled, Shooter, Turn};
 
@@ -85,7 +85,10 @@ fn choose(setting: &Setting, branch: &TracedBranch) -> Vec<usize> {
     }
     chosen.sort_unstable();
     chosen.dedup();
-    chosen.retain(|at| *at < count);
+    // Where branches meet an orbit is not isolated.
+    let forks = [(0, branch.ends[0]), (count - 1, branch.ends[1])];
+    let meets = |at: usize| forks.iter().any(|(end, why)| *end == at && *why == BranchEnd::Enough);
+    chosen.retain(|at| *at < count && !meets(*at));
     chosen
 }
 

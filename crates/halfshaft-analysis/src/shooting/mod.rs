@@ -19,6 +19,8 @@ mod flow;
 mod motion;
 mod orbit;
 mod series;
+#[cfg(test)]
+mod tests;
 mod waves;
 
 pub(crate) use coordinates::Coordinates;

@@ -1,9 +1,18 @@
 //! Dense kernels on row-major slices: factorisation with partial pivoting, solves, products.
 
+/// From this order on blocks are factorised in panels.
+const LARGE: usize = 64;
+
 /// Factorises the `n` by `n` matrix in place; `false` where a pivot vanishes or is not finite.
 /// `sign` is multiplied by the sign of the determinant.
 #[inline]
 pub(super) fn factorise(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
+    if n < LARGE { plain(a, n, pivots, sign) } else { super::large::factorise(a, n, pivots, sign) }
+}
+
+/// The same a column at a time.
+#[inline]
+pub(super) fn plain(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
     for k in 0..n {
         let mut best = k;
         let mut largest = a[k * n + k].abs();

@@ -12,6 +12,7 @@
 //! of Dynamical Equilibria* (2000), chapter 3.
 
 mod kernel;
+mod large;
 mod pattern;
 mod system;
 

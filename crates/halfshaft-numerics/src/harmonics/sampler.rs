@@ -49,6 +49,12 @@ impl Spectrum {
         &self.values
     }
 
+    /// Takes coefficients from order 0 that were found in another way; orders beyond are zero.
+    pub fn replace(&mut self, values: impl IntoIterator<Item = Complex>) {
+        self.values.clear();
+        self.values.extend(values);
+    }
+
     /// Writes the coefficients of the signal over `set`.
     pub fn coefficients(&self, set: &HarmonicSet, out: &mut [f64]) {
         for (order, place) in set.places() {
