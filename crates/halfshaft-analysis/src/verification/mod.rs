@@ -8,4 +8,6 @@
 mod elastic_motion;
 mod orbits;
 
+#[cfg(test)]
+pub(crate) use elastic_motion::ElasticMotion;
 pub(crate) use orbits::{choose, common_order, periodic};
