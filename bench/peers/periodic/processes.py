@@ -1,6 +1,7 @@
 """Child processes on one core, measured in processor seconds (user and system)."""
 
 import os
+import resource
 import statistics
 import subprocess
 import tempfile
@@ -32,20 +33,15 @@ def one_core():
 def measured(command, cwd=None, limit=900):
     """Runs a command to its end and takes its processor time, start-up and all, from the system."""
     with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
-        child = subprocess.Popen(command, cwd=cwd, stdout=output, stderr=errors,
-                                 preexec_fn=lambda: limit_processor(limit))
+        # No work of ours between fork and exec, which would count as the program's.
+        child = subprocess.Popen(command, cwd=cwd, stdout=output, stderr=errors)
+        # A program that never ends must not hold the machine: the system stops it.
+        resource.prlimit(child.pid, resource.RLIMIT_CPU, (limit, limit + 5))
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         output.seek(0)
         errors.seek(0)
         return Run(child.returncode, usage.ru_utime + usage.ru_stime, output.read(), errors.read())
-
-
-def limit_processor(seconds):
-    """A peer that never ends must not hold the machine: the system stops it."""
-    import resource
-
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
 
 
 def median(values):

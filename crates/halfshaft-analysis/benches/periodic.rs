@@ -56,7 +56,8 @@ fn layers(criterion: &mut Criterion) {
         let line = line_of(&text);
         let Some(layers) = Layers::new(&line, range, 1e-6) else { continue };
         let mut equations = layers.system();
-        let mut group = criterion.benchmark_group(format!("{name}, {} unknowns", layers.unknowns()));
+        let mut group =
+            criterion.benchmark_group(format!("{name}, {} unknowns", layers.unknowns()));
         group.bench_function("residual", |bencher| bencher.iter(|| equations.residual()));
         group.bench_function("jacobian", |bencher| bencher.iter(|| equations.jacobian()));
         group.bench_function("newton step", |bencher| bencher.iter(|| equations.newton_step()));

@@ -1,11 +1,11 @@
-//! Laws with kinks in harmonic balance: the one-sided contact of the reference cases, and how honest
-//! the truncation estimate is there.
+//! A law with a kink in harmonic balance: the one-sided contact of the reference cases, whose special
+//! points come from an exact piecewise-linear solution.
 
 mod common;
 
 use common::{line_of, of_kind, resonance, some};
 use halfshaft_model::question::QuestionText;
-use halfshaft_results::{ResonanceResult, SpecialKind, SpecialPoint};
+use halfshaft_results::{SpecialKind, SpecialPoint};
 
 /// `M = I`, `K = [[1, -1], [-1, 2]]`, `D = 0.03 K`, a stop at 1 rad with stiffness 100 on the first.
 const ONE_SIDED: &str = r#"
@@ -41,34 +41,39 @@ on = "n2"
 amplitude = 0.1
 "#;
 
-fn asked(text: &str, frequency: &str, verify: bool) -> ResonanceResult {
+/// Special points over a range, by as many harmonics as a rough tolerance needs: shooting relocates
+/// them exactly whatever that is.
+fn specials(frequency: &str) -> Vec<SpecialPoint> {
     let question = QuestionText {
         method: some("harmonic-balance"),
         frequency: some(frequency),
-        verify,
+        tolerance: some("1e-4"),
         ..QuestionText::default()
     };
-    resonance(&line_of(text, &[]), &question)
+    let result = resonance(&line_of(ONE_SIDED, &[]), &question);
+    result.branches.into_iter().flat_map(|branch| branch.special_points).collect()
 }
 
+#[track_caller]
+fn has(points: &[SpecialPoint], kind: SpecialKind, frequency: f64) -> SpecialPoint {
+    let near = |point: &&&SpecialPoint| {
+        point.value("frequency").is_some_and(|f| (f - frequency).abs() < 1.1e-10)
+    };
+    let found = of_kind(points, kind);
+    let places: Vec<Option<f64>> = found.iter().map(|point| point.value("frequency")).collect();
+    match found.iter().find(near) {
+        Some(point) => (*point).clone(),
+        None => panic!("no {kind:?} at {frequency}: {places:?}"),
+    }
+}
+
+// Source: periodic-cases, "One-sided contact": exact piecewise-linear solution, all digits given.
 #[test]
-fn look() {
-    let start = std::time::Instant::now();
-    let result = asked(ONE_SIDED, "0.55..0.8", true);
-    println!("{:?}", start.elapsed());
-    println!("{:?}", result.header.warnings);
-    for branch in &result.branches {
-        let f = branch.values("frequency");
-        println!("BRANCH periods {} {} closed {} ends {} from {}", branch.periods, f.len(), branch.closed, branch.ends, branch.origin);
-        let (h, t, a, s, l) = (branch.values("harmonics"), branch.values("truncation"), branch.values("stop.twist.amplitude"), branch.values("unstable_dimension"), branch.values("largest_multiplier"));
-        for k in 0..f.len() {
-            if k % 1 == 0 { println!("{:.10} {:.6} H {} trunc {:.1e} u {} {:.5}", f[k], a[k], h[k], t[k], s[k], l[k]); }
-        }
-        for p in &branch.special_points {
-            println!("  {:?} {:?} {:.12} amp {:?} {:?} {:?} {:?}", p.kind, p.status, p.value("frequency").unwrap_or(f64::NAN), p.value("stop.twist.amplitude"), p.value("precision"), p.unstable_dimension_change, p.note);
-        }
-    }
-    for v in &result.verification {
-        println!("V {:.8} pred {:.9} int {:.9} rel {:.1e} stable {} {} mult {:?} {} res {:.1e}", v.frequency, v.predicted, v.integrated, v.relative_difference, v.predicted_stable, v.integrated_stable, v.predicted_multiplier, v.largest_multiplier, v.orbit_residual);
-    }
+fn the_neimark_sacker_point_and_grazing_are_those_of_the_exact_solution() {
+    let points = specials("0.6..0.63");
+    let torus = has(&points, SpecialKind::NeimarkSacker, 0.618_606_874_3);
+    let angle = torus.value("multiplier_angle").expect("it is told");
+    assert!((angle.cos() + 0.069_761).abs() < 1e-5, "{angle}");
+    let points = specials("0.57..0.59");
+    has(&points, SpecialKind::GrazingContact, 0.581_899_639_0);
 }

@@ -14,7 +14,7 @@ use super::channels;
 use super::curve::{Curve, Grid, Kind, Piece, Sample, follow};
 use super::problem::{METHOD, Problem};
 use super::responses::Finder;
-use super::setting::{self, Resonance, even};
+use super::setting::{self, even};
 use super::{backbone, told};
 use crate::error::AnalysisError;
 use crate::header::header;
@@ -34,21 +34,26 @@ pub(crate) fn solve(
     let equations = EquationsOfMotion::new(line)?;
     // Refuses a line that does not fit before anything else is worked out.
     let shaft = Problem::new(equations.clone(), 1.0)?.shaft;
-    let resonance = setting::resonance(&equations, shaft, question.mode);
+    // The modes are only needed where the range of speeds is not given.
+    let resonance = match question.frequency {
+        Some(_) => None,
+        None => Some(setting::resonance(&equations, shaft, question.mode)?),
+    };
     let middle = question.frequency.map(|(from, to)| f64::midpoint(from, to));
     let nu = resonance.as_ref().map_or(middle, |resonance| Some(resonance.omega));
     let order = setting::order(&equations, question.order, nu)?;
     let problem = Problem::new(equations, order)?;
     let finder = Finder::new(&problem);
-    let window = match question.frequency {
-        Some((from, to)) => (order * from.max(1e-6 * to), order * to),
-        None => setting::window(&problem, &finder, resonance.as_ref().map_err(Clone::clone)?),
+    let window = match (question.frequency, &resonance) {
+        (Some((from, to)), _) => (order * from.max(1e-6 * to), order * to),
+        (None, Some(resonance)) => setting::window(&problem, &finder, resonance),
+        (None, None) => return Err(setting::no_resonance()),
     };
     setting::reaches(&problem, window)?;
     let points = question.points.unwrap_or(DEFAULT_POINTS);
     let nus = births::with_births(&problem, &finder, even(window.0, window.1, points));
     observer.progress(0.1);
-    let grid = Grid::new(&problem, &finder, nus);
+    let grid = Grid::new(&problem, &finder, nus.clone());
     observer.progress(0.4);
     let curve = follow(&problem, grid, &|| observer.cancelled());
     observer.progress(0.8);
@@ -58,25 +63,23 @@ pub(crate) fn solve(
         let detail = "not all responses were followed".to_owned();
         header.termination = Termination::early(Reason::Cancelled, detail);
     }
-    Ok(result(&problem, &finder, &curve, (window, resonance.ok().as_ref()), header))
+    Ok(result(&problem, &finder, &curve, &nus, header))
 }
 
 fn result(
     problem: &Problem,
     finder: &Finder,
     curve: &Curve,
-    (window, resonance): ((f64, f64), Option<&Resonance>),
+    nus: &[f64],
     header: Header,
 ) -> ResonanceResult {
     let samples = || curve.pieces.iter().flat_map(|piece| &piece.samples);
     let largest =
         samples().max_by(|a, b| a.response.amplitude().total_cmp(&b.response.amplitude()));
-    let backbones = resonance.map_or_else(Vec::new, |resonance| {
-        let highest = largest.map_or(1.0, |sample| 1.1 * sample.response.amplitude());
-        let inside = resonance.all.iter().filter(|nu| **nu >= window.0 && **nu <= window.1);
-        inside
-            .filter_map(|nu| backbone::backbone(problem, resonance.mean, *nu, highest, window))
-            .collect()
+    let window = (nus.first().copied().unwrap_or(0.0), nus.last().copied().unwrap_or(0.0));
+    let backbones = largest.map_or_else(Vec::new, |sample| {
+        let highest = 1.1 * sample.response.amplitude();
+        backbone::all(problem, setting::rest_twist(problem), highest, window, nus)
     });
     ResonanceResult {
         header,

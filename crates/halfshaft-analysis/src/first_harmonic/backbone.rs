@@ -1,14 +1,13 @@
 //! Backbone: free motion without damping, one frequency for each amplitude.
 //!
 //! With all damping and the drive taken away `α_c a + β F(a) = 0` is real. Its curve starts at each
-//! natural frequency of the line about rest and is followed over the amplitude. Responses peak near
-//! it.
+//! natural frequency of the line about rest that moves the shaft, and is followed over the amplitude.
+//! Responses peak near it.
 
 use halfshaft_numerics::Complex;
 use halfshaft_results::{Column, Table};
 
 use super::channels;
-use super::drive::Drive;
 use super::problem::Problem;
 use super::responses::Response;
 use super::shaft_law::Balanced;
@@ -18,41 +17,51 @@ const POINTS: u32 = 120;
 /// Newton steps for a point.
 const STEPS: usize = 30;
 
-impl Problem {
-    /// The same line without damping and without drive.
-    pub(super) fn free(&self) -> Self {
-        let mut law = self.law.clone();
-        (law.damping, law.friction, law.contact) = (0.0, None, None);
-        Self {
-            equations: self.equations.clone(),
-            shaft: self.shaft,
-            order: self.order,
-            rest: self.rest.undamped(),
-            drive: Drive::default(),
-            law,
-            forces: self.forces.clone(),
-            work: std::cell::RefCell::default(),
-        }
-    }
-}
-
-/// The backbone that starts at a natural circular frequency `nu`, up to an amplitude, within a
-/// range of circular frequencies; `None` where it has fewer than two points there.
-pub(super) fn backbone(
+/// All backbones that start within a range of circular frequencies, looked for on a grid of them, up
+/// to an amplitude; none where the line has no rest.
+pub(super) fn all(
     problem: &Problem,
     rest: f64,
-    nu: f64,
     highest: f64,
     range: (f64, f64),
-) -> Option<Table> {
+    grid: &[f64],
+) -> Vec<Table> {
     let free = problem.free();
+    let small = 1e-9 * highest;
+    let Some(at) = free.law.balanced(small, rest) else { return Vec::new() };
+    let left = |nu: &f64| {
+        let point = free.value(*nu)?;
+        Some(point.alpha.re + point.beta.re * at.force / small)
+    };
+    let values: Vec<Option<f64>> = grid.iter().map(left).collect();
+    let mut tables = Vec::new();
+    for (ends, values) in grid.windows(2).zip(values.windows(2)) {
+        let (Some(a), Some(b)) = (values[0], values[1]) else { continue };
+        if (a < 0.0) == (b < 0.0) {
+            continue;
+        }
+        // Where a limb of the rest resonates by itself the left side changes sign by scale only.
+        let guess = ends[0] + (ends[1] - ends[0]) * (a / (a - b));
+        if let Some(nu) = frequency(&free, guess, small, &at)
+            && nu >= ends[0]
+            && nu <= ends[1]
+        {
+            tables.extend(backbone(&free, rest, nu, highest, range));
+        }
+    }
+    tables
+}
+
+/// The backbone that starts at a natural circular frequency `nu`; `None` where it has fewer than two
+/// points in the range.
+fn backbone(free: &Problem, rest: f64, nu: f64, highest: f64, range: (f64, f64)) -> Option<Table> {
     let mut points: Vec<Response> = Vec::new();
     let (mut nu, mut mean) = (nu, rest);
     for k in 0..=POINTS {
         let a = highest * f64::from(k) / f64::from(POINTS);
         // At amplitude zero the harmonic is the tangent stiffness.
         let Some(at) = free.law.balanced(a.max(1e-9 * highest), mean) else { break };
-        let Some(next) = frequency(&free, nu, a.max(1e-9 * highest), &at) else { break };
+        let Some(next) = frequency(free, nu, a.max(1e-9 * highest), &at) else { break };
         if points.len() > 1 && (next / nu - 1.0).abs() > 0.2 {
             break;
         }
@@ -63,7 +72,7 @@ pub(super) fn backbone(
         let twist = Complex::from(a);
         points.push(Response { nu, twist, at, rises: true, damped: false });
     }
-    (points.len() > 1).then(|| table(&free, &points))
+    (points.len() > 1).then(|| table(free, &points))
 }
 
 /// The frequency of an amplitude near a guess.

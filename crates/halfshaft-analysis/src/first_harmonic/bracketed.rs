@@ -48,7 +48,7 @@ pub(super) fn all(problem: &Problem, sheets: &Sheets, point: &Point<Complex>) ->
 fn bounds(problem: &Problem, point: &Point<Complex>) -> Option<(f64, f64)> {
     let Point { nu, alpha, beta, gamma } = *point;
     let target = gamma.modulus();
-    if !(target > 0.0) {
+    if target <= 0.0 || target.is_nan() {
         return None;
     }
     let law = &problem.law;
@@ -186,9 +186,9 @@ impl Search<'_> {
             let (whole, slope) = self.problem.whole_and_slope(self.point, amplitude, &at);
             let value = whole.modulus() - self.target;
             if (value < 0.0) == rising {
-                low = amplitude
+                low = amplitude;
             } else {
-                high = amplitude
+                high = amplitude;
             }
             let along = (whole.re * slope.re + whole.im * slope.im) / whole.modulus();
             let newton = amplitude - value / along;

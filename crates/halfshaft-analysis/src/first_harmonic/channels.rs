@@ -39,19 +39,10 @@ pub(super) fn group_amplitudes(problem: &Problem, response: &Response) -> Vec<Co
     motion.unwrap_or_else(|| vec![Complex::new(f64::NAN, 0.0); problem.equations.groups()])
 }
 
-/// Mean angles of the groups at a response; those of a free line turned so that its mean is zero.
+/// Mean angles of the groups at a response; those of a free line turned so that their mean by inertia
+/// is zero.
 pub(super) fn mean_angles(problem: &Problem, response: &Response) -> Vec<f64> {
-    let mean = response.at.mean;
-    let torque = mean_torque(problem, response);
-    let angles = problem.rest.angles_at_rest(&problem.forces, mean, torque);
-    let mut angles = angles.unwrap_or_else(|| vec![0.0; problem.equations.groups()]);
-    if let Some(rigid) = &problem.equations.rigid {
-        let turn = rigid.mean(&angles);
-        for (angle, speed) in angles.iter_mut().zip(&rigid.speeds) {
-            *angle -= speed * turn;
-        }
-    }
-    angles
+    problem.mean_angles(response.at.mean, mean_torque(problem, response))
 }
 
 fn mean_torque(problem: &Problem, response: &Response) -> f64 {

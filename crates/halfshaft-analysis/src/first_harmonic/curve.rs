@@ -91,11 +91,6 @@ impl Grid {
         Self { nus, rows, open }
     }
 
-    /// All responses at one frequency of the grid.
-    pub(super) fn responses(&self, row: usize) -> impl Iterator<Item = &Response> {
-        self.rows[row].iter().map(|known| &known.response)
-    }
-
     fn largest(&self) -> f64 {
         let all = self.rows.iter().flatten();
         all.map(|known| known.response.amplitude()).fold(0.0, f64::max)
@@ -438,9 +433,7 @@ fn with_peaks(path: &Path, samples: Vec<Sample>) -> Vec<Sample> {
         peaks.push((if own < at { index + 1 } else { index + 2 }, sample));
     }
     let mut all = samples;
-    for (at, peak) in peaks.into_iter().rev() {
-        all.insert(at, peak);
-    }
+    peaks.into_iter().rev().for_each(|(at, peak)| all.insert(at, peak));
     all
 }
 

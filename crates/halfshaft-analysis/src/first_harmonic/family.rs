@@ -18,7 +18,7 @@ pub(super) struct Family<'l> {
     parameter: Parameter,
     pub(super) order: f64,
     shaft: usize,
-    /// The resonance at the model's own values, where it has one.
+    /// The resonance at the model's own values, where no range of speeds is given.
     pub(super) resonance: Option<Resonance>,
     /// Length of the range of the parameter.
     pub(super) width: f64,
@@ -65,13 +65,18 @@ impl<'l> Family<'l> {
         // The shaft that is nonlinear anywhere in the range: a coefficient may pass through zero.
         let inside = line.with(&parameter, from + 0.618 * (to - from))?;
         let shaft = nonlinear_shaft(&EquationsOfMotion::new(&inside)?)?;
-        let resonance = setting::resonance(&equations, shaft, question.mode).ok();
+        let resonance = match question.frequency {
+            Some(_) => None,
+            None => Some(setting::resonance(&equations, shaft, question.mode)?),
+        };
         let order = match (question.order, order_of(line, &parameter)) {
             (Some(order), _) => setting::order(&equations, Some(order), None)?,
             // The amplitude of a torque bends the response of its own order.
             (None, Some(order)) => order,
             (None, None) => {
-                setting::order(&equations, None, resonance.as_ref().map(|found| found.omega))?
+                let middle = question.frequency.map(|(from, to)| f64::midpoint(from, to));
+                let nu = resonance.as_ref().map_or(middle, |found| Some(found.omega));
+                setting::order(&equations, None, nu)?
             }
         };
         let made = RefCell::default();

@@ -14,7 +14,7 @@ use super::fold_curves::{FoldCurves, Plane};
 use super::fold_path::Fold;
 use super::problem::Problem;
 use super::responses::{Finder, Response, response};
-use super::setting::even;
+use super::setting::{even, no_resonance};
 use super::told;
 use crate::error::AnalysisError;
 use crate::header::header;
@@ -80,10 +80,7 @@ fn window(family: &Family<'_>, question: &FoldsQuestion) -> Result<(f64, f64), A
     if let Some((from, to)) = question.frequency {
         return Ok((family.order * from.max(1e-6 * to), family.order * to));
     }
-    let resonance = family.resonance.as_ref().ok_or_else(|| AnalysisError::MethodDoesNotFit {
-        method: super::problem::METHOD,
-        reason: "the line has no resonance to look about: give a range of speeds".to_owned(),
-    })?;
+    let resonance = family.resonance.as_ref().ok_or_else(no_resonance)?;
     Ok((BROAD.0 * resonance.omega, BROAD.1 * resonance.omega))
 }
 

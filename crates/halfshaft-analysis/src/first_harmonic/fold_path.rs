@@ -97,7 +97,8 @@ impl FoldPath<'_> {
             let rows = [first.map(|x| x / n1), second.map(|x| x / n2), *across];
             let step = solve_three(&rows, &[-residual.value / n1, -residual.by_u / n2, 0.0])?;
             let length = norm(&step);
-            if !(length < 0.5) || (iteration > 1 && length > last && length > 1e-9) {
+            if length.is_nan() || length >= 0.5 || (iteration > 1 && length > last && length > 1e-9)
+            {
                 return None;
             }
             spot = self.moved(&spot, &step);
@@ -208,7 +209,7 @@ impl FoldPath<'_> {
             }
             let step = solve_three(&rows, &right)?;
             let length = norm(&step);
-            if !(length < 1.0) {
+            if length.is_nan() || length >= 1.0 {
                 return None;
             }
             let damping = (0.1 / length).min(1.0);

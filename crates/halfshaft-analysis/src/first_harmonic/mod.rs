@@ -9,6 +9,7 @@
 
 mod amplitude_polynomial;
 mod answer;
+#[allow(dead_code, reason = "starting points for harmonic balance")]
 mod api;
 mod backbone;
 mod births;
@@ -36,6 +37,6 @@ mod sheets;
 mod told;
 
 pub(crate) use answer::solve;
-#[expect(unused_imports, reason = "seeds for harmonic balance")]
+#[allow(unused_imports, reason = "starting points for harmonic balance")]
 pub(crate) use api::{FirstHarmonicResponse, Seeder, responses_at};
 pub(crate) use fold_answer::{response_count, solve as solve_folds};

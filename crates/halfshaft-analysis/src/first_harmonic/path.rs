@@ -60,10 +60,18 @@ impl Path<'_> {
 
     /// The equations at `ν`, `X`; the mean near a guess.
     fn equations(&self, nu: f64, twist: Complex, guess: f64) -> Option<(Equations, Balanced)> {
-        let point = self.problem.jet(nu)?;
+        self.equations_at(&self.problem.jet(nu)?, twist, guess)
+    }
+
+    fn equations_at(
+        &self,
+        point: &Point<Jet>,
+        twist: Complex,
+        guess: f64,
+    ) -> Option<(Equations, Balanced)> {
         let amplitude = twist.modulus().max(1e-9 * self.least);
         let at = self.problem.law.balanced(amplitude, guess)?;
-        Some((self.filled(&point, twist, amplitude, &at), at))
+        Some((self.filled(point, twist, amplitude, &at), at))
     }
 
     fn filled(&self, point: &Point<Jet>, twist: Complex, a: f64, at: &Balanced) -> Equations {
@@ -126,8 +134,14 @@ impl Path<'_> {
         let mut place = *start;
         let mut last = f64::INFINITY;
         let mut moved = [0.0; 3];
+        // At a fixed frequency the rest of the line is asked once.
+        let stays = fixed[1] == 0.0 && fixed[2] == 0.0;
+        let mut point = self.problem.jet(place.nu)?;
         for iterations in 0..STEPS {
-            let (equations, at) = self.equations(place.nu, place.twist, place.at.mean)?;
+            if iterations > 0 && !stays {
+                point = self.problem.jet(place.nu)?;
+            }
+            let (equations, at) = self.equations_at(&point, place.twist, place.at.mean)?;
             place.at = at;
             let [a, b] = equations.rows;
             let step =
@@ -137,7 +151,9 @@ impl Path<'_> {
                 return None;
             }
             let scale = self.size(place.twist);
-            place.nu += self.width * step[0];
+            if !stays {
+                place.nu += self.width * step[0];
+            }
             place.twist = place.twist + Complex::new(scale * step[1], scale * step[2]);
             moved = [moved[0] + step[0], moved[1] + step[1], moved[2] + step[2]];
             if length <= 1e-13 || (iterations > 0 && length <= 1e-11 && length > 0.2 * last) {

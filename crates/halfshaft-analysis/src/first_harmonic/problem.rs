@@ -10,7 +10,7 @@
 //! with the first harmonic `F(a)` of the law, the mean in balance, and what resists, `S(ν, a)`: dry
 //! friction, dampers in contact.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::Complex;
@@ -18,7 +18,7 @@ use halfshaft_numerics::Complex;
 use super::drive::Drive;
 use super::jet::{Jet, Scalar};
 use super::limbs::{Gathered, Seen};
-use super::rest::{Rest, Statics, mean_forces};
+use super::rest::{Rest, mean_forces};
 use super::shaft_law::{Balanced, Resistance, ShaftLaw};
 use crate::error::AnalysisError;
 
@@ -36,7 +36,9 @@ pub(super) struct Problem {
     pub(super) law: ShaftLaw,
     /// Mean torques on the groups that the shafts carry, N·m.
     pub(super) forces: Vec<f64>,
-    pub(super) work: RefCell<(Gathered<Jet>, Gathered<Complex>)>,
+    /// Mean angles of the groups with no twist and torque of the shaft, and by each of them.
+    angles: OnceCell<[Vec<f64>; 3]>,
+    work: RefCell<(Gathered<Jet>, Gathered<Complex>)>,
 }
 
 /// `α_c`, `β`, `γ` at a circular frequency.
@@ -74,11 +76,56 @@ impl Problem {
     pub(super) fn of_shaft(equations: EquationsOfMotion, shaft: usize, order: f64) -> Self {
         let rest = Rest::new(&equations, shaft);
         let forces = mean_forces(&equations, shaft);
-        let statics = rest.statics(&forces).unwrap_or(Statics::default());
+        let statics = rest.statics(&forces).unwrap_or_default();
         let scale = equations.excitation.scale();
         let law = ShaftLaw::new(&equations.connections[shaft], statics, scale);
         let drive = Drive::new(&equations, order);
-        Self { shaft, order, rest, drive, law, forces, work: RefCell::default(), equations }
+        Self::assembled(equations, (shaft, order), rest, drive, law, forces)
+    }
+
+    fn assembled(
+        equations: EquationsOfMotion,
+        (shaft, order): (usize, f64),
+        rest: Rest,
+        drive: Drive,
+        law: ShaftLaw,
+        forces: Vec<f64>,
+    ) -> Self {
+        let (angles, work) = (OnceCell::new(), RefCell::default());
+        Self { equations, shaft, order, rest, drive, law, forces, angles, work }
+    }
+
+    /// The same line without damping and without drive.
+    pub(super) fn free(&self) -> Self {
+        let mut law = self.law.clone();
+        (law.damping, law.friction, law.contact) = (0.0, None, None);
+        let (equations, forces) = (self.equations.clone(), self.forces.clone());
+        let of = (self.shaft, self.order);
+        Self::assembled(equations, of, self.rest.undamped(), Drive::default(), law, forces)
+    }
+
+    /// Mean angles of the groups for the mean twist `x` and the mean torque `torque` of the shaft;
+    /// those of a free line turned so that their mean by inertia is zero.
+    pub(super) fn mean_angles(&self, x: f64, torque: f64) -> Vec<f64> {
+        let [constant, by_x, by_torque] = self.angles.get_or_init(|| {
+            let at = |x: f64, torque: f64| {
+                let angles = self.rest.angles_at_rest(&self.forces, x, torque);
+                let mut angles = angles.unwrap_or_else(|| vec![0.0; self.equations.groups()]);
+                if let Some(rigid) = &self.equations.rigid {
+                    let turn = rigid.mean(&angles);
+                    for (angle, speed) in angles.iter_mut().zip(&rigid.speeds) {
+                        *angle -= speed * turn;
+                    }
+                }
+                angles
+            };
+            let none = at(0.0, 0.0);
+            let over = |angles: Vec<f64>| angles.iter().zip(&none).map(|(a, b)| a - b).collect();
+            let (by_x, by_torque) = (over(at(1.0, 0.0)), over(at(0.0, 1.0)));
+            [none, by_x, by_torque]
+        });
+        let slopes = by_x.iter().zip(by_torque);
+        constant.iter().zip(slopes).map(|(c, (a, b))| c + a * x + b * torque).collect()
     }
 
     /// What the shaft sees at circular frequency `nu`, with derivatives.

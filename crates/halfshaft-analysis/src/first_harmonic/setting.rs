@@ -18,10 +18,28 @@ pub(super) struct Resonance {
     pub(super) omega: f64,
     /// Damping coefficient of the mode, 1/s.
     pub(super) beta: f64,
-    /// All natural circular frequencies, rad/s, ascending.
-    pub(super) all: Vec<f64>,
-    /// Mean twist of the nonlinear shaft at rest, rad.
-    pub(super) mean: f64,
+}
+
+/// The error of a line that does not say by itself where to look.
+pub(super) fn no_resonance() -> AnalysisError {
+    AnalysisError::MethodDoesNotFit {
+        method: METHOD,
+        reason: "the line has no resonance to look about: give a range of speeds".to_owned(),
+    }
+}
+
+/// Mean twist of the nonlinear shaft at rest, rad: the held one nearest to zero.
+pub(super) fn rest_twist(problem: &Problem) -> f64 {
+    let law = &problem.law;
+    let (asked, parallel) = (law.statics.asked, law.statics.parallel);
+    let mut twists = law.law.twists_at(asked);
+    if parallel != 0.0 {
+        // What is in parallel moves it: near the twist under the whole load by Newton's method.
+        let start = asked / (parallel + law.law.stiffness(0.0));
+        twists.insert(0, law.mean(1e-9 * start.abs().max(1e-9), start).unwrap_or(start));
+    }
+    let held = twists.iter().filter(|x| law.law.stiffness(**x) + parallel > 0.0);
+    held.copied().min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
 }
 
 /// The resonance about which a line is looked at.
@@ -34,9 +52,8 @@ pub(super) fn resonance(
 ) -> Result<Resonance, AnalysisError> {
     let states = equilibrium::find_stable(equations)?;
     let twists = states.primary().map(|state| state.twists.clone());
-    let mean = twists.as_ref().map_or(0.0, |twists| twists[shaft]);
     if let Some(twists) = &twists
-        && let Some(found) = about(equations, twists, mode, mean)?
+        && let Some(found) = about(equations, twists, mode)?
     {
         return Ok(found);
     }
@@ -47,10 +64,7 @@ pub(super) fn resonance(
     let straight = [0.0, stiffness, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     taut.connections[shaft].law = TorqueLaw::Polynomial(PolynomialLaw::new(straight));
     let twists = twists.unwrap_or_else(|| vec![0.0; equations.connections.len()]);
-    about(&taut, &twists, mode, mean)?.ok_or_else(|| AnalysisError::MethodDoesNotFit {
-        method: METHOD,
-        reason: "the line has no resonance to look about: give a range of speeds".to_owned(),
-    })
+    about(&taut, &twists, mode)?.ok_or_else(no_resonance)
 }
 
 /// The modes about given twists; `None` where the asked one does not vibrate.
@@ -58,7 +72,6 @@ fn about(
     equations: &EquationsOfMotion,
     twists: &[f64],
     mode: usize,
-    mean: f64,
 ) -> Result<Option<Resonance>, AnalysisError> {
     let modes = ElasticSpace::new(equations).modes(equations, twists)?;
     let found = modes.len();
@@ -70,13 +83,8 @@ fn about(
     let damping = equations.damping_matrix();
     let image: Vec<f64> =
         (0..damping.rows()).map(|row| dot(damping.row(row), &asked.shape)).collect();
-    let all = modes.iter().map(|mode| mode.eigenvalue).filter(|value| *value > 0.0);
-    Ok(Some(Resonance {
-        omega: asked.eigenvalue.sqrt(),
-        beta: dot(&asked.shape, &image),
-        all: all.map(f64::sqrt).collect(),
-        mean,
-    }))
+    let (omega, beta) = (asked.eigenvalue.sqrt(), dot(&asked.shape, &image));
+    Ok(Some(Resonance { omega, beta }))
 }
 
 /// The order that is asked for, or of all the one that drives the shaft most at `nu`, and how many

@@ -122,7 +122,7 @@ impl ShaftLaw {
         for _ in 0..MEAN_STEPS {
             let swing = self.swing(mean, amplitude);
             let held = swing.moments[0] + self.statics.parallel;
-            if !(held > 0.0) {
+            if held <= 0.0 || held.is_nan() {
                 return (swing.imbalance == 0.0).then_some(mean);
             }
             let step = swing.imbalance / held;

@@ -219,7 +219,7 @@ impl Sheets {
             edges.chunks_exact(2).rev().map(|pair| (pair[0], pair[1])).collect();
         let mut looked = 0;
         while let Some((from, to)) = waiting.pop() {
-            if !(from < to) {
+            if from >= to {
                 continue;
             }
             looked += 1;

@@ -8,8 +8,7 @@ use halfshaft_model::question::{Question, ResonanceQuestion};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Branch, Column, Effort, Header, Named, Reason, ResonanceResult, SpecialKind, SpecialPoint,
-    Status, Termination,
+    Branch, Column, Effort, Header, Named, ResonanceResult, SpecialKind, SpecialPoint, Status,
 };
 
 use super::backbone::{BackboneSettings, backbones};
@@ -17,6 +16,7 @@ use super::branches::{Collected, Job, TracedBranch};
 use super::channels::{ChannelValue, Channels, named, names};
 use super::jumps::jumps;
 use super::line::Line;
+use super::messages::messages;
 use super::problem::Axis;
 use super::range::default_range;
 use super::seeds::{Seed, drive_curve};
@@ -30,6 +30,7 @@ use crate::header::header;
 use crate::verification::common_order;
 
 /// A line about to be asked for its periodic responses.
+#[derive(Debug)]
 pub(crate) struct Setting {
     pub(crate) line: Line,
     /// Twists at rest.
@@ -425,56 +426,4 @@ fn peak(setting: &Setting, branch: &Branch) -> Option<Named<f64>> {
 pub(super) fn reference(setting: &Setting) -> &str {
     let index = setting.line.twists.first().map_or(0, |twist| twist.connection);
     &setting.line.equations.connections[index].name
-}
-
-pub(super) fn messages(
-    setting: &Setting,
-    question: &ResonanceQuestion,
-    all: &Collected,
-    result: &mut ResonanceResult,
-) {
-    let header = &mut result.header;
-    header.warnings.extend(all.messages.iter().cloned());
-    if all.branches.is_empty() {
-        header.warnings.push(format!(
-            "no periodic response was found between {:.6} and {:.6} rad/s; try a narrower range or a \
-             lower amplitude",
-            setting.range.0, setting.range.1
-        ));
-    }
-    for branch in &all.branches {
-        let mut stopped = |end: BranchEnd, sample: Option<&Sample>| {
-            let Some(sample) = sample else { return };
-            let why = match end {
-                BranchEnd::StepTooSmall => "no step was small enough to go on",
-                BranchEnd::SampleLimit => "as many samples as allowed were taken",
-                BranchEnd::Unbounded => "the response grows beyond all measure",
-                _ => return,
-            };
-            header.warnings.push(format!(
-                "the branch from the {} stops at {:.6} rad/s: {why}; try --tolerance {:.0e} or a \
-                 narrower range",
-                branch.origin,
-                sample.p,
-                10.0 * question.tolerance
-            ));
-        };
-        stopped(branch.ends[0], branch.samples.first());
-        stopped(branch.ends[1], branch.samples.last());
-    }
-    if all.exhausted {
-        header.warnings.push(format!(
-            "even {} harmonics leave more than the tolerance of {:e} of some waveforms; see the column \
-             truncation",
-            super::tracer::MOST_HARMONICS,
-            question.tolerance
-        ));
-    }
-    if let Some(harmonics) = question.harmonics {
-        header.assumptions.push(format!("{harmonics} harmonics, as asked"));
-    }
-    if all.cancelled {
-        let detail = "branches were left before their end".to_owned();
-        header.termination = Termination::early(Reason::Cancelled, detail);
-    }
 }

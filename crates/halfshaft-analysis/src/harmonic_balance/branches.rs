@@ -3,6 +3,7 @@
 use halfshaft_model::question::StabilityMethod;
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
+use halfshaft_results::SpecialKind;
 
 use super::line::Line;
 use super::problem::{Axis, Problem};
@@ -190,6 +191,11 @@ impl<'j, 'f> Job<'j, 'f> {
                 let pair = (&samples[special.after], &samples[special.after + 1]);
                 refine(self.line, base, pair, special);
             }
+            // Harmonics that come and go make a curve with kinks waver: what no orbit confirms is no
+            // fold.
+            specials.retain(|special| {
+                special.kind != SpecialKind::Fold || special.precision.is_finite()
+            });
         }
         TracedBranch { samples, stability, specials, base, periods, origin, ends }
     }

@@ -41,7 +41,7 @@ impl Parting {
     fn has(self, order: usize) -> bool {
         match self {
             Self::Doubling => order % 2 == 1,
-            Self::Mirror => order % 2 == 0,
+            Self::Mirror => order.is_multiple_of(2),
             Self::None => true,
         }
     }
@@ -155,7 +155,8 @@ impl Job<'_, '_> {
     fn switch(&self, all: &mut Collected, special: &Special, fork: &Fork) -> Switched {
         let mut tracer = self.tracer(fork.set.clone(), fork.base);
         let metric = tracer.metric(&fork.u);
-        let old = (fork.fit(&special.sample.set, &special.sample.tangent), special.sample.tangent_p);
+        let old =
+            (fork.fit(&special.sample.set, &special.sample.tangent), special.sample.tangent_p);
         let Some(null) = null_direction(&mut tracer, fork, (&old.0, old.1), &metric) else {
             return Switched::Lost;
         };

@@ -19,8 +19,9 @@ use halfshaft_results::{
 use super::answer::Setting;
 use super::branches::Job;
 use super::channels::{Channels, names};
+use super::fold_points::on_curve;
 use super::fold_system::{FoldSample, FoldSystem};
-use super::fold_trace::{FoldCurve, FoldSettings, FoldTracer, on_curve};
+use super::fold_trace::{FoldCurve, FoldSettings, FoldTracer};
 use super::line::{Line, nonlinear};
 use super::lines::Lines;
 use super::problem::{Axis, Problem};

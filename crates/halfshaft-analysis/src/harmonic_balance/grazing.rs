@@ -55,7 +55,8 @@ impl Touch {
     pub(super) fn beyond(&self, line: &Line, sample: &Sample) -> f64 {
         let list = extremes(line, self.index, sample);
         let touching = passages(&list, self.level) > self.fewer;
-        let over = list.iter().map(|e| if e.top { e.value - self.level } else { self.level - e.value });
+        let over =
+            list.iter().map(|e| if e.top { e.value - self.level } else { self.level - e.value });
         let near = over.filter(|over| (*over > 0.0) == touching).map(f64::abs);
         let near = near.reduce(f64::min).unwrap_or(f64::NAN);
         if touching { near } else { -near }
@@ -64,9 +65,9 @@ impl Touch {
     /// As a sentence.
     pub(super) fn words(&self, line: &Line, sample: &Sample) -> String {
         let list = extremes(line, self.index, sample);
-        let nearest = list.iter().min_by(|a, b| {
-            (a.value - self.level).abs().total_cmp(&(b.value - self.level).abs())
-        });
+        let nearest = list
+            .iter()
+            .min_by(|a, b| (a.value - self.level).abs().total_cmp(&(b.value - self.level).abs()));
         let side = if nearest.is_none_or(|extreme| extreme.top) { "below" } else { "above" };
         let name = &line.equations.connections[self.connection].name;
         format!("the twist of `{name}` touches {} rad from {side}", self.level)

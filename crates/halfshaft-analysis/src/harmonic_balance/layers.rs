@@ -17,17 +17,12 @@ use super::system::{HarmonicSystem, Place};
 use super::tracer::{Counted, Sample, Tracer, length};
 
 /// A line with one of its responses.
+#[derive(Debug)]
 pub struct Layers {
     setting: Setting,
     base: f64,
     sample: Sample,
     tolerance: f64,
-}
-
-impl std::fmt::Debug for Layers {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("Layers").field("sample", &self.sample).finish_non_exhaustive()
-    }
 }
 
 impl Layers {
@@ -58,7 +53,7 @@ impl Layers {
         let line = self.setting.line.clone();
         let system = HarmonicSystem::new(line, self.sample.set.clone(), self.base);
         let problem = Problem::new(system, Axis::Frequency, self.place());
-        let judge = Judge::new(&problem.system, StabilityMethod::default());
+        let judge = Judge::new(&problem.system, StabilityMethod::Monodromy);
         let (u, place) = (self.sample.u.clone(), self.place());
         let moved = u.iter().enumerate();
         let moved = moved.map(|(k, u)| u + 1e-3 * length(&self.sample.u) * (k as f64).sin());
@@ -148,6 +143,6 @@ fn job(setting: &Setting, tolerance: f64) -> Job<'_, 'static> {
         observer: &Silent,
         doublings: false,
         judged: false,
-        stability: StabilityMethod::default(),
+        stability: StabilityMethod::Monodromy,
     }
 }

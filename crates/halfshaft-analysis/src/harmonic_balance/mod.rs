@@ -6,15 +6,15 @@
 //! | `skeleton`, `condensed`, `line` | the linear rest of the line taken out, harmonic by harmonic |
 //! | `system` | residual and Jacobian (alternating frequency-time) |
 //! | `problem` | Newton's method on a curve |
-//! | `tracer` | pseudo-arclength continuation |
+//! | `tracer`, `closing` | pseudo-arclength continuation |
 //! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
 //! | `seeds`, `tips`, `branches`, `branching` | all branches, detached ones and those that branch off included |
-//! | `lines`, `fold_system`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
+//! | `lines`, `fold_system`, `fold_points`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
-//! | `channels`, `jumps`, `range`, `verify`, `answer` | from branches to the answer |
+//! | `channels`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
 //! | `layers` | single layers, for benches |
 
 mod answer;
@@ -22,8 +22,10 @@ mod backbone;
 mod branches;
 mod branching;
 mod channels;
+mod closing;
 mod condensed;
 mod fold_answer;
+mod fold_points;
 mod fold_system;
 mod fold_trace;
 mod grazing;
@@ -32,6 +34,7 @@ mod jumps;
 pub mod layers;
 mod line;
 mod lines;
+mod messages;
 mod monodromy;
 mod orbits;
 mod panels;

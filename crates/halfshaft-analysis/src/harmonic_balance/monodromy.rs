@@ -122,7 +122,8 @@ impl Variational {
                 next = CAUTION * reach;
                 steps += 1;
                 if steps > MOST_STEPS || !step.is_finite() || step <= 0.0 {
-                    let stop = halfshaft_numerics::ode::Stop::StepLimit { time: t, limit: MOST_STEPS };
+                    let stop =
+                        halfshaft_numerics::ode::Stop::StepLimit { time: t, limit: MOST_STEPS };
                     return Err(stop.into());
                 }
             }

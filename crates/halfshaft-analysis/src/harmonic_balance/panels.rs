@@ -42,15 +42,31 @@ pub(super) struct Panels<const W: usize> {
     arch: pulp::Arch,
 }
 
-/// Work that runs with the widest instructions of the processor.
-struct Wide<F>(F);
+/// One step of one panel, or only its coefficients where no step is given, as work that runs with the
+/// widest instructions of the processor: a structure and no closure, because only that is sure to be
+/// compiled with them.
+struct PanelStep<'p, 'e, const W: usize> {
+    panels: &'p mut Panels<W>,
+    equations: &'e EquationsOfMotion,
+    tangents: &'e [Tangent],
+    panel: usize,
+    step: Option<f64>,
+}
 
-impl<R, F: FnOnce() -> R> pulp::NullaryFnOnce for Wide<F> {
-    type Output = R;
+impl<const W: usize> pulp::NullaryFnOnce for PanelStep<'_, '_, W> {
+    /// The longest step that the terms of the panel allow.
+    type Output = f64;
 
     #[inline(always)]
-    fn call(self) -> R {
-        (self.0)()
+    fn call(self) -> f64 {
+        let Self { panels, equations, tangents, panel, step } = self;
+        panels.load(panel);
+        panels.recur(equations, tangents);
+        let reach = panels.reach();
+        if let Some(step) = step {
+            panels.advance(panel, step);
+        }
+        reach
     }
 }
 
@@ -106,16 +122,16 @@ impl<const W: usize> Panels<W> {
     }
 
     /// The longest step that the terms of all panels allow.
-    pub(super) fn longest_step(&mut self, equations: &EquationsOfMotion, tangents: &[Tangent]) -> f64 {
+    pub(super) fn longest_step(
+        &mut self,
+        equations: &EquationsOfMotion,
+        tangents: &[Tangent],
+    ) -> f64 {
         let arch = self.arch;
-        let panels = self.state.len() / (2 * self.groups);
-        (0..panels)
+        let count = self.state.len() / (2 * self.groups);
+        (0..count)
             .map(|panel| {
-                arch.dispatch(Wide(|| {
-                    self.load(panel);
-                    self.recur(equations, tangents);
-                    self.reach()
-                }))
+                arch.dispatch(PanelStep { panels: self, equations, tangents, panel, step: None })
             })
             .fold(f64::INFINITY, f64::min)
     }
@@ -134,13 +150,9 @@ impl<const W: usize> Panels<W> {
             let mut longest = f64::INFINITY;
             for panel in 0..panels {
                 let length = *step;
-                let reach = arch.dispatch(Wide(|| {
-                    self.load(panel);
-                    self.recur(equations, tangents);
-                    let reach = self.reach();
-                    self.advance(panel, length);
-                    reach
-                }));
+                let step = Some(length);
+                let work = PanelStep { panels: self, equations, tangents, panel, step };
+                let reach = arch.dispatch(work);
                 longest = longest.min(reach);
                 if longest < 0.8 * length {
                     break;
@@ -243,8 +255,8 @@ impl<const W: usize> Panels<W> {
             for power in (2..=DEGREE).rev() {
                 let term = &self.angles[power * groups + group];
                 for lane in 0..W {
-                    slope[lane] = slope[lane].mul_add(step, value[lane]);
-                    value[lane] = value[lane].mul_add(step, term[lane]);
+                    slope[lane] = slope[lane] * step + value[lane];
+                    value[lane] = value[lane] * step + term[lane];
                 }
             }
             let (angle, rate) = (self.angles[group], self.angles[groups + group]);
@@ -297,6 +309,6 @@ fn twist<const W: usize>(connection: &Connection, angles: &[[f64; W]]) -> [f64; 
 #[inline(always)]
 fn axpy<const W: usize>(factor: f64, x: &[f64; W], y: &mut [f64; W]) {
     for lane in 0..W {
-        y[lane] = factor.mul_add(x[lane], y[lane]);
+        y[lane] += factor * x[lane];
     }
 }

@@ -121,7 +121,8 @@ fn secant(
         let moved = (orbit.frequency - near.frequency).abs() / orbit.frequency;
         let step = -value * (s - s_before) / (value - value_before);
         let settled = step.abs() <= SETTLED * path.size;
-        let stalled = value == value_before || (value.abs() >= value_before.abs() && value.abs() < 1e-11);
+        let stalled =
+            value == value_before || (value.abs() >= value_before.abs() && value.abs() < 1e-11);
         if settled || stalled || value == 0.0 {
             return Ok(Some((orbit, moved)));
         }

@@ -54,6 +54,7 @@ pub(super) struct Quadrature {
 }
 
 /// Seeds at one speed: every passage of the drive through 1.
+#[expect(clippy::too_many_arguments, reason = "what a curve over the drive needs, once")]
 pub(super) fn over_drive(
     line: &Line,
     rest: &[f64],
@@ -69,6 +70,7 @@ pub(super) fn over_drive(
 }
 
 /// Follows the response over the drive at one speed.
+#[expect(clippy::too_many_arguments, reason = "what a curve over the drive needs, once")]
 pub(super) fn drive_curve(
     line: &Line,
     rest: &[f64],

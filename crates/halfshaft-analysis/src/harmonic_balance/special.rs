@@ -185,7 +185,7 @@ impl Tracer<'_, '_> {
                 (high, at_high) = (middle, value);
             }
         }
-        if !(at_low * at_high <= 0.0) {
+        if at_low * at_high > 0.0 || (at_low * at_high).is_nan() {
             return None;
         }
         let settings = RootSettings {
@@ -335,10 +335,10 @@ impl Tracer<'_, '_> {
         for crossing in &changes {
             match crossing {
                 Crossing::MinusOne => {
-                    wanted.push((SpecialKind::PeriodDoubling, Test::Crossing(*crossing)))
+                    wanted.push((SpecialKind::PeriodDoubling, Test::Crossing(*crossing)));
                 }
                 Crossing::Pair => {
-                    wanted.push((SpecialKind::NeimarkSacker, Test::Crossing(*crossing)))
+                    wanted.push((SpecialKind::NeimarkSacker, Test::Crossing(*crossing)));
                 }
                 // Without the mirror symmetry a multiplier passes 1 at every fold.
                 Crossing::One if mirrored => {

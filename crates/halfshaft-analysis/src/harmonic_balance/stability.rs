@@ -111,7 +111,7 @@ pub(super) fn test(stability: &Stability, crossing: Crossing) -> f64 {
             nearest(list.iter().filter(real).map(|m| m.re - 1.0))
         }
         Crossing::MinusOne => {
-            nearest(stability.multipliers.iter().filter(real).map(|m| m.re + 1.0)) * -1.0
+            -nearest(stability.multipliers.iter().filter(real).map(|m| m.re + 1.0))
         }
         Crossing::Pair => {
             let pairs = stability.multipliers.iter().filter(|m| m.im > 0.0);

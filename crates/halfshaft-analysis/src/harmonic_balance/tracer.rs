@@ -8,9 +8,11 @@
 //! prediction's error as in A. Nayfeh, B. Balachandran, *Applied Nonlinear Dynamics* (1995), section 6.
 //! Harmonics are added and dropped from sample to sample as the tolerance asks.
 
+use halfshaft_numerics::blocks::Factors;
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
+use super::closing::comes_back;
 use super::problem::{Condition, Corrected, Failure, Metric, Problem};
 
 /// A response on a branch.
@@ -196,7 +198,7 @@ impl<'t, 'f> Tracer<'t, 'f> {
         metric: &Metric,
     ) -> Sample {
         let (tangent, tangent_p) = self.problem.tangent(metric);
-        let orientation = self.problem.factors.as_ref().map_or(1.0, |factors| factors.sign());
+        let orientation = self.problem.factors.as_ref().map_or(1.0, Factors::sign);
         let truncation = self.problem.system.truncation;
         let metric = (metric.size, metric.span);
         Sample { set, u, p, tangent, tangent_p, metric, orientation, truncation }
@@ -427,30 +429,4 @@ fn oriented(sample: &Sample, sign: f64) -> Sample {
         sample.orientation = -sample.orientation;
     }
     sample
-}
-
-/// Whether the step from the last sample to `next` passes the first sample in its direction.
-fn comes_back(samples: &[Sample], next: &Sample) -> bool {
-    let (Some(first), Some(last)) = (samples.first(), samples.last()) else { return false };
-    let metric = Metric { size: first.metric.0, span: first.metric.1 };
-    let fit = |sample: &Sample| refit(&sample.set, &first.set, 1, &sample.u);
-    let (a, b) = (fit(last), fit(next));
-    let from_first = |u: &[f64], p: f64| {
-        let d: Vec<f64> = u.iter().zip(&first.u).map(|(x, y)| x - y).collect();
-        (
-            metric.norm(&d, p - first.p),
-            metric.dot((&d, p - first.p), (&first.tangent, first.tangent_p)),
-        )
-    };
-    let (distance_a, along_a) = from_first(&a, last.p);
-    let (distance_b, along_b) = from_first(&b, next.p);
-    let step: Vec<f64> = b.iter().zip(&a).map(|(x, y)| x - y).collect();
-    let length = metric.norm(&step, next.p - last.p);
-    let facing =
-        metric.dot((&step, next.p - last.p), (&first.tangent, first.tangent_p)) > 0.7 * length;
-    facing
-        && along_a <= 0.0
-        && along_b >= 0.0
-        && distance_a <= 1.1 * length
-        && distance_b <= 1.1 * length
 }

@@ -157,7 +157,8 @@ fn seen(
         })
         .collect();
     let all = || twist.iter().copied().chain(turns.iter().map(|turn| turn.twist));
-    let (top, bottom) = (all().fold(f64::NEG_INFINITY, f64::max), all().fold(f64::INFINITY, f64::min));
+    let (top, bottom) =
+        (all().fold(f64::NEG_INFINITY, f64::max), all().fold(f64::INFINITY, f64::min));
     Ok((twist, 0.5 * (top - bottom)))
 }
 

@@ -94,11 +94,11 @@ impl Columns {
             let from = (index * (DEGREE + 1) + k) * n;
             from..from + n
         };
-        for j in 0..(*stiff).min(power + 1) {
-            axpy(stiffness[j], &self.twists[row(power - j)], &mut self.torque);
+        for (j, k) in stiffness.iter().enumerate().take((*stiff).min(power + 1)) {
+            axpy(*k, &self.twists[row(power - j)], &mut self.torque);
         }
-        for j in 0..(*damped).min(power + 1) {
-            let factor = damping[j] * (power - j + 1) as f64;
+        for (j, c) in damping.iter().enumerate().take((*damped).min(power + 1)) {
+            let factor = c * (power - j + 1) as f64;
             axpy(factor, &self.twists[row(power - j + 1)], &mut self.torque);
         }
         let connection = &equations.connections[index];

@@ -131,7 +131,8 @@ impl<'e> Flow<'e> {
         let groups = equations.groups();
         let (mut angles, mut speeds) = (vec![0.0; groups], vec![0.0; groups]);
         self.coordinates.spread(equations, state, &mut angles, &mut speeds);
-        for (series, (angle, speed)) in self.motion.angles.iter_mut().zip(angles.iter().zip(&speeds))
+        for (series, (angle, speed)) in
+            self.motion.angles.iter_mut().zip(angles.iter().zip(&speeds))
         {
             (series[0], series[1]) = (*angle, *speed);
         }

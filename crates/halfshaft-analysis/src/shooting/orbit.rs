@@ -19,8 +19,6 @@ pub(crate) struct Orbit {
     pub(crate) by_frequency: Vec<f64>,
     /// Distance by which the orbit failed to close when last tried.
     pub(crate) residual: f64,
-    /// Size of the last correction, relative.
-    pub(crate) correction: f64,
 }
 
 impl Orbit {
@@ -94,7 +92,11 @@ impl<'e> Shooter<'e> {
     }
 
     /// The state after the period or half of it, and how it depends on state and speed.
-    fn pass(&mut self, state: &[f64], frequency: f64) -> Result<(Vec<f64>, Matrix, Vec<f64>), Lost> {
+    fn pass(
+        &mut self,
+        state: &[f64],
+        frequency: f64,
+    ) -> Result<(Vec<f64>, Matrix, Vec<f64>), Lost> {
         let end = self.period(frequency) * if self.mirrored { 0.5 } else { 1.0 };
         let arrived = self.flow.run(state, frequency, end, true, |_| {})?;
         let Some((matrix, mut by_frequency)) = arrived.variation else {
@@ -136,7 +138,7 @@ impl<'e> Shooter<'e> {
                 return Err(Lost::NotConverged);
             }
             if correction <= FINAL || stalled {
-                return Ok(Orbit { state, frequency, matrix, by_frequency, residual, correction });
+                return Ok(Orbit { state, frequency, matrix, by_frequency, residual });
             }
             // Newton's method must not throw the speed to nothing.
             let shrink = (0.2 / step[n].abs()).min(1.0);
@@ -195,11 +197,7 @@ impl<'e> Shooter<'e> {
     }
 
     /// Follows an orbit through its whole period.
-    pub(crate) fn watch(
-        &mut self,
-        orbit: &Orbit,
-        see: impl FnMut(&Step<'_>),
-    ) -> Result<(), Lost> {
+    pub(crate) fn watch(&mut self, orbit: &Orbit, see: impl FnMut(&Step<'_>)) -> Result<(), Lost> {
         let end = self.period(orbit.frequency);
         self.flow.run(&orbit.state, orbit.frequency, end, false, see)?;
         Ok(())

@@ -64,8 +64,8 @@ impl GrowingLaw {
         for at in (0..degree - 1).rev() {
             let partial = &mut self.partial[degree - 2 - at];
             partial[power] = value;
-            value = constant(at)
-                + (0..=power).map(|k| partial[k] * shifted(power - k)).sum::<f64>();
+            value =
+                constant(at) + (0..=power).map(|k| partial[k] * shifted(power - k)).sum::<f64>();
         }
         value
     }
@@ -111,16 +111,11 @@ impl GrowingFriction {
             self.tanh[0] = self.rate[0].tanh();
         } else {
             // k tanh_k = Σ i w_i (1 - tanh²)_{k-i}.
-            let sum: f64 =
-                (1..=k).map(|i| i as f64 * self.rate[i] * self.slope[k - i]).sum();
+            let sum: f64 = (1..=k).map(|i| i as f64 * self.rate[i] * self.slope[k - i]).sum();
             self.tanh[k] = sum / k as f64;
         }
         let square: f64 = (0..=k).map(|i| self.tanh[i] * self.tanh[k - i]).sum();
-        self.slope[k] = if k == 0 {
-            (1.0 - self.tanh[0]) * (1.0 + self.tanh[0])
-        } else {
-            -square
-        };
+        self.slope[k] = if k == 0 { (1.0 - self.tanh[0]) * (1.0 + self.tanh[0]) } else { -square };
         self.torque * self.tanh[k]
     }
 

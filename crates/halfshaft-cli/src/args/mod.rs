@@ -53,6 +53,7 @@ pub struct Arguments {
 
 /// What can be done.
 #[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "one is made a run, and boxes would hide the flags")]
 pub enum Command {
     #[command(flatten)]
     Ask(Ask),

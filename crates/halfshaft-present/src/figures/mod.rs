@@ -27,6 +27,7 @@ mod detuned;
 mod marks;
 mod multipliers;
 mod regions;
+mod smooth;
 
 /// The figures of an answer, in the order of reading.
 #[must_use]

@@ -1,9 +1,10 @@
 //! Response curves of harmonic balance and of the first harmonic: any number of branches with
 //! special points of every kind, over the excitation speed or over a parameter.
 
-use halfshaft_results::{Branch, ResonanceResult, SpecialKind, SpecialPoint};
+use halfshaft_results::{Branch, ResonanceResult, SpecialKind, SpecialPoint, Table};
 
-use super::axes::{column_axis, curve, name, speed_axis};
+use super::axes::{column_axis, name, speed_axis};
+use super::smooth::Samples;
 use super::{marks, resonance};
 use crate::account::periodic::periods_words;
 use crate::figure::{Axis, Colour, Curve, Figure, Item, Line, Panel, Reference, escape};
@@ -40,13 +41,7 @@ pub(super) fn panel(reading: &Reading<'_>) -> Panel {
     let column = reading.column();
     let x = reading.x.column.as_str();
     let mut panel = Panel::new(axis(&reading.x), column_axis(&column, "rad"));
-    for table in &result.backbones {
-        let (xs, ys) = (table.values(x), table.values(&column));
-        if !xs.is_empty() && !ys.is_empty() {
-            let line = curve("backbone".to_owned(), xs, ys, Colour::AUXILIARY);
-            panel = panel.with(line.with_line(Line::DashDot).with_width(1.0));
-        }
-    }
+    panel = panel.with_all(result.backbones.iter().filter_map(|table| backbone(table, x, &column)));
     for branch in &result.branches {
         panel = panel.with_all(drawn(branch, (x, &column)));
     }
@@ -55,6 +50,20 @@ pub(super) fn panel(reading: &Reading<'_>) -> Panel {
         panel = panel.with_all(resonance::verified(result, None, x));
     }
     panel
+}
+
+/// A backbone: of the free line without damping, or where the response lags by a quarter turn.
+fn backbone(table: &Table, x: &str, y: &str) -> Option<Curve> {
+    let known = |name: &str| table.column(name).is_some();
+    let (label, line) = match (known("energy"), known("drive")) {
+        (true, _) => ("backbone, undamped", Line::Dotted),
+        (_, true) => ("backbone, phase resonance", Line::DashDot),
+        _ => ("backbone", Line::DashDot),
+    };
+    let (x, y) = (table.values(x).to_vec(), table.values(y).to_vec());
+    let samples = Samples { stable: vec![true; x.len()], x, y }.smoothed();
+    let drawn = Curve::new(label, samples.x, samples.y, Colour::AUXILIARY);
+    (!drawn.x.is_empty() && !drawn.y.is_empty()).then(|| drawn.with_line(line).with_width(1.0))
 }
 
 /// The horizontal axis.
@@ -76,26 +85,23 @@ fn look(branch: &Branch) -> (String, Colour) {
 }
 
 fn drawn(branch: &Branch, (x, y): (&str, &str)) -> Vec<Curve> {
+    let samples = closed(resonance::samples(branch, x, y), branch).smoothed();
     let (label, colour) = look(branch);
-    let mut curves = resonance::branch_curves(branch, x, y, &label, colour);
-    if branch.closed {
-        close(&mut curves, branch, (x, y));
-    }
-    curves
+    Curve::by_stability(&label, &samples.x, &samples.y, &samples.stable, colour)
 }
 
-/// Joins the ends of a branch that closes on itself.
-fn close(curves: &mut Vec<Curve>, branch: &Branch, (x, y): (&str, &str)) {
-    let (xs, ys, stable) = (branch.values(x), branch.values(y), branch.values("stable"));
-    let count = xs.len().min(ys.len());
-    if count < 3 || (xs[0], ys[0]) == (xs[count - 1], ys[count - 1]) {
-        return;
+/// Samples that end where they began, where the branch closes on itself.
+fn closed(mut samples: Samples, branch: &Branch) -> Samples {
+    let first = samples.x.first().copied().zip(samples.y.first().copied());
+    let last = samples.x.last().copied().zip(samples.y.last().copied());
+    let whole = samples.x.len() == samples.y.len() && samples.x.len() == samples.stable.len();
+    if let Some((x, y)) = first.filter(|first| branch.closed && whole && Some(*first) != last) {
+        let stable = samples.stable.first().copied().unwrap_or(true);
+        samples.x.push(x);
+        samples.y.push(y);
+        samples.stable.push(stable);
     }
-    let (label, colour) = look(branch);
-    let solid = [0, count - 1].iter().all(|row| stable.get(*row).is_none_or(|value| *value != 0.0));
-    let line = if solid { Line::Solid } else { Line::Dashed };
-    let joint = Curve::new(label, vec![xs[count - 1], xs[0]], vec![ys[count - 1], ys[0]], colour);
-    curves.push(joint.with_line(line).unlisted());
+    samples
 }
 
 /// Special points of all branches.
@@ -120,8 +126,11 @@ fn margin(reading: &Reading<'_>) -> Option<Panel> {
     let mut panel = Panel::new(axis(&reading.x), Axis::new("Largest multiplier", "")).with(limit);
     panel.height_share = 0.55;
     for branch in &reading.result.branches {
-        let curves = drawn(branch, (x, column)).into_iter().map(Curve::unlisted);
-        panel = panel.with_all(curves);
+        // The largest of several moduli has corners, which stay.
+        let Samples { x, y, stable } = closed(resonance::samples(branch, x, column), branch);
+        let (label, colour) = look(branch);
+        let curves = Curve::by_stability(&label, &x, &y, &stable, colour);
+        panel = panel.with_all(curves.into_iter().map(Curve::unlisted));
     }
     Some(panel)
 }
@@ -146,7 +155,7 @@ fn caption(reading: &Reading<'_>) -> String {
         text += " No sweep reaches the detached response.";
     }
     if !result.backbones.is_empty() {
-        text += " Dash-dot is the backbone, on which the peaks lie.";
+        text += " The grey lines are backbones, on which the peaks lie as the excitation grows.";
     }
     if !result.verification.is_empty() && reading.x.is_speed() {
         text += " Circles and diamonds are periodic motions of the full equations, by integration.";

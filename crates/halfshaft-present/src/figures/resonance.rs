@@ -4,6 +4,7 @@ use halfshaft_results::{Branch, ModeScaling, ResonanceResult, SpecialPoint};
 
 use super::axes::{column_axis, curve, name, speed_axis};
 use super::periodic;
+use super::smooth::Samples;
 use crate::account::resonance::fold_points;
 use crate::figure::{Axis, Colour, Curve, Figure, Item, Line, Panel, Points};
 use crate::words::{number, plain};
@@ -99,7 +100,7 @@ fn vertical(branches: &[&Branch], scaling: Option<&ModeScaling>) -> (String, Axi
     }
 }
 
-/// A branch split by its stability.
+/// A branch split by its stability; smooth where it was continued by few samples.
 pub(super) fn branch_curves(
     branch: &Branch,
     x: &str,
@@ -107,11 +108,20 @@ pub(super) fn branch_curves(
     label: &str,
     colour: Colour,
 ) -> Vec<Curve> {
-    let (xs, ys) = (branch.values(x), branch.values(y));
+    let mut samples = samples(branch, x, y);
+    // Others list all responses at many speeds.
+    if !branch.values("truncation").is_empty() {
+        samples = samples.smoothed();
+    }
+    Curve::by_stability(label, &samples.x, &samples.y, &samples.stable, colour)
+}
+
+/// The samples of a branch. Where nothing is known of stability it is drawn as it is.
+pub(super) fn samples(branch: &Branch, x: &str, y: &str) -> Samples {
+    let (x, y) = (branch.values(x).to_vec(), branch.values(y).to_vec());
     let stable: Vec<bool> = branch.values("stable").iter().map(|value| *value != 0.0).collect();
-    // Where nothing is known of stability the branch is drawn as it is.
-    let stable = if stable.is_empty() { vec![true; xs.len()] } else { stable };
-    Curve::by_stability(label, xs, ys, &stable, colour)
+    let stable = if stable.is_empty() { vec![true; x.len()] } else { stable };
+    Samples { x, y, stable }
 }
 
 fn backbone(result: &ResonanceResult, index: usize, column: &str) -> Option<Curve> {

@@ -55,10 +55,7 @@ fn pair(what: &str, [closed, first, balance]: [Option<Point>; 3]) -> Vec<LevelRo
         harmonic_balance: balance.map(of),
         ..LevelRow::default()
     };
-    vec![
-        row("speed", "rad/s", |point| point.speed),
-        row("twist", "rad", |point| point.swing),
-    ]
+    vec![row("speed", "rad/s", |point| point.speed), row("twist", "rad", |point| point.swing)]
 }
 
 /// Branches that a slow sweep shows.
@@ -66,17 +63,14 @@ fn swept(result: &ResonanceResult) -> impl Iterator<Item = &Branch> {
     result.branches.iter().filter(|branch| !branch.is_detached() && branch.periods <= 1)
 }
 
-/// The largest response: as the analysis located it, or between the samples.
+/// The largest response: as the analysis located it or between the samples, whichever is larger.
 fn peak(result: &ResonanceResult, column: &str) -> Option<Point> {
     let located = result.peaks.iter().filter_map(|peak| {
         let (speed, swing) = (*peak.get("frequency")?, *peak.get(column)?);
         Some(Point { speed, swing, stable: true })
     });
-    let sampled = || {
-        let tops = swept(result).filter_map(|branch| between_samples(branch, column));
-        tops.max_by(|a, b| a.swing.total_cmp(&b.swing))
-    };
-    located.max_by(|a, b| a.swing.total_cmp(&b.swing)).or_else(sampled)
+    let sampled = swept(result).filter_map(|branch| between_samples(branch, column));
+    located.chain(sampled).max_by(|a, b| a.swing.total_cmp(&b.swing))
 }
 
 /// The top of a branch by the parabola through its largest sample and the neighbours, over the

@@ -169,18 +169,18 @@ impl Reporter<'_> {
         let closed = self.report.closed_form.as_ref().and_then(|form| form.scaling.first());
         let closed = closed.map(|scaling| (scaling.mode, scaling.order));
         for parameter in planes::planes(self.line, self.report) {
+            let beside = closed.and_then(|(mode, order)| {
+                let own = (mode, Some(order));
+                self.plane(question(&parameter, None, ResonanceMethod::Averaged, own))
+            });
             if self.report.resonance.is_some() {
-                let question = question(&parameter, ResonanceMethod::HarmonicBalance, (1, None));
+                let speeds = beside.as_ref().and_then(planes::speeds);
+                let balance = ResonanceMethod::HarmonicBalance;
                 // A plane without any fold is a finding too; its warning says so.
-                let folds = self.plane(question);
+                let folds = self.plane(question(&parameter, speeds, balance, (1, None)));
                 self.report.folds.extend(folds);
             }
-            if let Some((mode, order)) = closed {
-                let own = (mode, Some(order));
-                let question = question(&parameter, ResonanceMethod::Averaged, own);
-                let folds = self.plane(question);
-                self.report.closed_folds.extend(folds);
-            }
+            self.report.closed_folds.extend(beside);
         }
     }
 
@@ -195,11 +195,12 @@ impl Reporter<'_> {
 /// Fold curves over a parameter, of a mode and an order where the method is of one.
 fn question(
     parameter: &ParameterRange,
+    frequency: Option<(f64, f64)>,
     method: ResonanceMethod,
     (mode, order): (usize, Option<f64>),
 ) -> FoldsQuestion {
     FoldsQuestion {
-        frequency: None,
+        frequency,
         parameter: parameter.clone(),
         method,
         mode,

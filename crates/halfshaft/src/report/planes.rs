@@ -2,7 +2,7 @@
 
 use halfshaft_model::Driveline;
 use halfshaft_model::question::ParameterRange;
-use halfshaft_results::{ModeScaling, ReportResult, ResonanceResult};
+use halfshaft_results::{FoldsResult, ModeScaling, ReportResult, ResonanceResult};
 
 /// Parameters and ranges that hold both the model's own value and the cusp of the closed form, where
 /// there is one; wide ones about the model's own value where there is no closed form.
@@ -12,6 +12,17 @@ pub(super) fn planes(line: &Driveline, report: &ReportResult) -> Vec<ParameterRa
         Some(scaling) => about_cusps(line, scaling),
         None => report.best_resonance().map_or_else(Vec::new, |best| about_model(line, best)),
     }
+}
+
+/// The speeds of a plane that hold all its curves, with as much again on both sides; `None` where it
+/// has no curve.
+pub(super) fn speeds(plane: &FoldsResult) -> Option<(f64, f64)> {
+    let all = plane.curves.iter().flat_map(|curve| curve.values("frequency")).copied();
+    let (low, high) = all
+        .filter(|speed| speed.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    let margin = (high - low).max(1e-3 * high);
+    (low <= high).then(|| ((low - margin).max(0.3 * low), high + margin))
 }
 
 /// Planes about the model's own values.

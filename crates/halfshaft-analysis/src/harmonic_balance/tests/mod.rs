@@ -12,7 +12,6 @@ mod robust;
 use std::rc::Rc;
 
 use halfshaft_dynamics::EquationsOfMotion;
-use halfshaft_model::question::StabilityMethod;
 use halfshaft_model::{Driveline, Source, read_model};
 use halfshaft_numerics::observer::Silent;
 
@@ -60,7 +59,7 @@ fn traced_with(setting: Setting, tolerance: f64, harmonics: Option<usize>) -> Tr
         observer: &Silent,
         doublings: true,
         judged: true,
-        stability: StabilityMethod::default(),
+        stability: halfshaft_model::question::StabilityMethod::Monodromy,
     };
     let collected = job.collect(&seeds);
     Traced { setting, collected }

@@ -3,7 +3,7 @@
 use halfshaft_results::{SpecialKind, SpecialPoint, Status};
 
 use super::super::{Grid, check::minus};
-use crate::reading::Reading;
+use crate::reading::{Method, Reading};
 use crate::words::{plain, special_explanation, special_words};
 
 /// Points of a branch that are told: all but its ends.
@@ -38,7 +38,7 @@ pub(super) fn grid(reading: &Reading<'_>) -> Grid {
         6,
         of("frequency".to_owned()).map(rpm),
     );
-    if swing != harmonic {
+    if swing != harmonic && reading.method != Method::FirstHarmonic {
         grid = grid.numbers("twist, half of peak to peak", "rad", 6, of(swing));
     }
     let multiplier = |point: &SpecialPoint| point.value("multiplier_angle").map(f64::to_degrees);

@@ -1,0 +1,60 @@
+//! What the reader must know of an answer: branches that stop, harmonics that do not suffice.
+
+use halfshaft_model::question::ResonanceQuestion;
+use halfshaft_results::{Reason, ResonanceResult, Termination};
+
+use super::answer::Setting;
+use super::branches::Collected;
+use super::tracer::{BranchEnd, Sample};
+
+pub(super) fn messages(
+    setting: &Setting,
+    question: &ResonanceQuestion,
+    all: &Collected,
+    result: &mut ResonanceResult,
+) {
+    let header = &mut result.header;
+    header.warnings.extend(all.messages.iter().cloned());
+    if all.branches.is_empty() {
+        header.warnings.push(format!(
+            "no periodic response was found between {:.6} and {:.6} rad/s; try a narrower range or a \
+             lower amplitude",
+            setting.range.0, setting.range.1
+        ));
+    }
+    for branch in &all.branches {
+        let mut stopped = |end: BranchEnd, sample: Option<&Sample>| {
+            let Some(sample) = sample else { return };
+            let why = match end {
+                BranchEnd::StepTooSmall => "no step was small enough to go on",
+                BranchEnd::SampleLimit => "as many samples as allowed were taken",
+                BranchEnd::Unbounded => "the response grows beyond all measure",
+                _ => return,
+            };
+            header.warnings.push(format!(
+                "the branch from the {} stops at {:.6} rad/s: {why}; try --tolerance {:.0e} or a \
+                 narrower range",
+                branch.origin,
+                sample.p,
+                10.0 * question.tolerance
+            ));
+        };
+        stopped(branch.ends[0], branch.samples.first());
+        stopped(branch.ends[1], branch.samples.last());
+    }
+    if all.exhausted {
+        header.warnings.push(format!(
+            "even {} harmonics leave more than the tolerance of {:e} of some waveforms; see the column \
+             truncation",
+            super::tracer::MOST_HARMONICS,
+            question.tolerance
+        ));
+    }
+    if let Some(harmonics) = question.harmonics {
+        header.assumptions.push(format!("{harmonics} harmonics, as asked"));
+    }
+    if all.cancelled {
+        let detail = "branches were left before their end".to_owned();
+        header.termination = Termination::early(Reason::Cancelled, detail);
+    }
+}
