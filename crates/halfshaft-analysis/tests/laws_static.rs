@@ -208,7 +208,9 @@ fn an_elastic_mesh_is_a_shaft_behind_the_gear() {
 fn averaging_refuses_what_it_cannot_represent_by_name() {
     let refused = |law: &str| {
         let line = line_of(&loaded(law, 50.0), &[]);
-        match try_ask(&line, Verb::Resonance, &QuestionText::default()) {
+        let method = Some("averaged".to_owned());
+        let text = QuestionText { method, ..QuestionText::default() };
+        match try_ask(&line, Verb::Resonance, &text) {
             Err(AnalysisError::MethodDoesNotFit { reason, .. }) => reason,
             other => panic!("{other:?}"),
         }

@@ -61,6 +61,8 @@ pub(super) struct Job<'j, 'f> {
 const SAME: f64 = 1e-5;
 /// Responses farther than this from the chord of two samples are not between them, in the metric.
 const REACH: f64 = 0.1;
+/// Samples this near to a branch, relative, run along it: the miss of its straight pieces.
+const ALONG: f64 = 5e-3;
 /// Guesses this near to a branch are not worth a try.
 pub(super) const NEAR: f64 = 0.02;
 
@@ -115,6 +117,7 @@ impl<'j, 'f> Job<'j, 'f> {
         all.counted.iterations += tracer.counted.iterations;
         all.exhausted |= tracer.exhausted;
         drop(tracer);
+        merge_duplicates(&mut all.branches);
         if self.judged {
             self.branch_off(&mut all);
         }
@@ -198,6 +201,30 @@ impl<'j, 'f> Job<'j, 'f> {
             });
         }
         TracedBranch { samples, stability, specials, base, periods, origin, ends }
+    }
+}
+
+/// Drops branches that run along another: pieces of it that were followed from a seed of their own.
+fn merge_duplicates(branches: &mut Vec<TracedBranch>) {
+    let along = |piece: &TracedBranch, whole: &TracedBranch| {
+        let count = piece.samples.len();
+        count > 0
+            && piece.base == whole.base
+            && [count / 4, count / 2, 3 * count / 4].into_iter().all(|at| {
+                let sample = &piece.samples[at];
+                on_branch(whole, &sample.set, &sample.u, sample.p, ALONG)
+            })
+    };
+    let mut at = 0;
+    while at < branches.len() {
+        let piece = &branches[at];
+        let longer = |other: &TracedBranch| other.samples.len() > piece.samples.len();
+        let duplicate = branches.iter().any(|whole| longer(whole) && along(piece, whole));
+        if duplicate {
+            branches.remove(at);
+        } else {
+            at += 1;
+        }
     }
 }
 

@@ -64,7 +64,7 @@ fn differences_are_told_in_numbers() {
         .fold(0.0, f64::max);
     let shown = super::common::number_after(&told, "the closed form by at most");
     super::common::assert_shows(shown, 100.0 * worst, 2);
-    assert!(told.contains("The methods side by side"), "{told}");
+    assert!(told.contains("Values by every method"), "{told}");
     // Folds: harmonic balance is what the others are held against: 1/(1 + 2e-4) − 1.
     let folds = &told[told.find("The speeds of the folds").unwrap()..];
     let off = 100.0 * (1.0 - 1.0 / (1.0 + 2e-4));
