@@ -33,12 +33,17 @@ impl Stability {
     }
 
     pub(crate) fn is_stable(&self) -> bool {
-        self.unstable == 0
+        self.unstable == 0 && self.is_known()
     }
 
-    /// Modulus of the largest multiplier.
+    /// Whether the multipliers were found.
+    pub(crate) fn is_known(&self) -> bool {
+        !self.multipliers.is_empty()
+    }
+
+    /// Modulus of the largest multiplier; NaN where none was found.
     pub(crate) fn largest(&self) -> f64 {
-        self.multipliers.first().map_or(0.0, |m| m.modulus())
+        self.multipliers.first().map_or(f64::NAN, |m| m.modulus())
     }
 }
 
@@ -89,13 +94,14 @@ impl Judge {
         let speed = system.fundamental(place);
         let orbit = Orbit { set: &system.set, speed, twists: &twists };
         let equations = &system.line.equations;
-        let raw = match self.method {
-            StabilityMethod::Monodromy => self
-                .variational
-                .multipliers(equations, &orbit)
-                .map_err(|_| Failure::NotConverged)?,
-            StabilityMethod::Hill => super::hill::multipliers(equations, &orbit)?,
-        };
+        if self.method == StabilityMethod::Monodromy {
+            match self.variational.multipliers(equations, &orbit) {
+                Ok(raw) => return Ok(Stability::of(raw, system.set.is_odd())),
+                // A line too stiff to be integrated stays so: Hill's method does not integrate.
+                Err(_) => self.method = StabilityMethod::Hill,
+            }
+        }
+        let raw = super::hill::multipliers(equations, &orbit)?;
         Ok(Stability::of(raw, system.set.is_odd()))
     }
 }
