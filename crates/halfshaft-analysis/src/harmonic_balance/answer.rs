@@ -317,7 +317,10 @@ impl<'s> Measured<'s> {
         columns.push(Column::new(
             "stable",
             "1",
-            of(&|k| f64::from(u8::from(stability[k].is_stable()))),
+            of(&|k| {
+                let stable = f64::from(u8::from(stability[k].is_stable()));
+                if stability[k].is_known() { stable } else { f64::NAN }
+            }),
         ));
         columns.push(Column::new("unstable_dimension", "1", of(&|k| stability[k].unstable as f64)));
         columns.push(Column::new("largest_multiplier", "1", of(&|k| stability[k].largest())));

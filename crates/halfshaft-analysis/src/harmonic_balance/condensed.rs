@@ -60,8 +60,12 @@ pub(super) struct Condensed {
     pub(super) load: Vec<Dual>,
 }
 
-/// A pivot below this part of what was summed to it is taken for zero.
-const VANISHING: f64 = 1e-13;
+/// A pivot below this part of the stiffest edge of its group is damped up to it: the group taken out is at
+/// resonance there with its neighbours held, and a smaller pivot would cost more digits than the
+/// damper of this size does.
+const VANISHING: f64 = 1e-8;
+/// A pivot below this part of the stiffest connection is rounding, where no edge holds the group.
+const EMPTY: f64 = 1e-13;
 
 impl Condensed {
     /// Assembles and condenses the linear part at `ν = order_ratio · speed`; `self.load` must hold the
@@ -109,11 +113,18 @@ impl Condensed {
 
     fn eliminate(&mut self, skeleton: &Skeleton, size: f64) {
         for step in &skeleton.steps {
-            let pivot = self.diagonal[step.group];
-            if pivot.value.modulus() <= VANISHING * size {
+            let mut pivot = self.diagonal[step.group];
+            let held = step.around.iter().any(|(_, edge)| self.edge[*edge].value.modulus() > 0.0);
+            if !held && pivot.value.modulus() <= EMPTY * size {
                 // Nothing holds this group at this frequency (a mean that only dampers oppose).
                 self.diagonal[step.group] = Dual::default();
                 continue;
+            }
+            let own = step.around.iter().map(|(_, edge)| self.edge[*edge].value.modulus());
+            let least = VANISHING * own.fold(0.0, f64::max);
+            if pivot.value.modulus() < least {
+                pivot.value = Complex::new(pivot.value.re, least);
+                self.diagonal[step.group] = pivot;
             }
             for &(other, edge) in &step.around {
                 let factor = self.edge[edge].over(pivot);

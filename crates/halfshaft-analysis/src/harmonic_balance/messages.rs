@@ -42,6 +42,13 @@ pub(super) fn messages(
         stopped(branch.ends[0], branch.samples.first());
         stopped(branch.ends[1], branch.samples.last());
     }
+    let unknown = all.branches.iter().flat_map(|branch| &branch.stability);
+    let unknown = unknown.filter(|stability| !stability.is_known()).count();
+    if unknown > 0 {
+        header.warnings.push(format!(
+            "the stability of {unknown} responses could not be found; their column stable is empty"
+        ));
+    }
     if all.exhausted {
         header.warnings.push(format!(
             "even {} harmonics leave more than the tolerance of {:e} of some waveforms; see the column \

@@ -24,6 +24,8 @@ pub(super) struct Seed {
 
 /// Drive at which a curve begins.
 pub(super) const FIRST_DRIVE: f64 = 1e-3;
+/// The same, and lower ones for torques so strong that it is no small response.
+const FIRST_DRIVES: [f64; 4] = [FIRST_DRIVE, 1e-5, 1e-7, 1e-9];
 /// Drive to which a curve is followed.
 const LAST_DRIVE: f64 = 20.0;
 /// Samples of a curve at most.
@@ -102,7 +104,8 @@ pub(super) fn drive_curve(
         quadratures: Vec::new(),
         first: None,
     };
-    if let Ok(start) = tracer.seed(set, &u, FIRST_DRIVE) {
+    let first = FIRST_DRIVES.into_iter().find_map(|drive| tracer.seed(set, &u, drive).ok());
+    if let Some(start) = first {
         let sign = if start.tangent_p < 0.0 { -1.0 } else { 1.0 };
         let (samples, _) = tracer.follow(&start, sign);
         for pair in samples.windows(2) {

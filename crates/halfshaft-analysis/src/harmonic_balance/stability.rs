@@ -33,12 +33,17 @@ impl Stability {
     }
 
     pub(crate) fn is_stable(&self) -> bool {
-        self.unstable == 0
+        self.unstable == 0 && self.is_known()
     }
 
-    /// Modulus of the largest multiplier.
+    /// Whether the multipliers were found.
+    pub(crate) fn is_known(&self) -> bool {
+        !self.multipliers.is_empty()
+    }
+
+    /// Modulus of the largest multiplier; NaN where none was found.
     pub(crate) fn largest(&self) -> f64 {
-        self.multipliers.first().map_or(0.0, |m| m.modulus())
+        self.multipliers.first().map_or(f64::NAN, |m| m.modulus())
     }
 }
 
@@ -89,13 +94,17 @@ impl Judge {
         let speed = system.fundamental(place);
         let orbit = Orbit { set: &system.set, speed, twists: &twists };
         let equations = &system.line.equations;
-        let by_hill = (self.method == StabilityMethod::Hill)
-            .then(|| super::hill::multipliers(equations, &orbit).ok())
-            .flatten();
-        let raw = match by_hill {
-            Some(values) => values,
-            // Also where Hill's method does not converge.
-            None => self
+        if self.method == StabilityMethod::Monodromy {
+            match self.variational.multipliers(equations, &orbit) {
+                Ok(raw) => return Ok(Stability::of(raw, system.set.is_odd())),
+                // A line too stiff to be integrated stays so: Hill's method does not integrate.
+                Err(_) => self.method = StabilityMethod::Hill,
+            }
+        }
+        let raw = match super::hill::multipliers(equations, &orbit) {
+            Ok(raw) => raw,
+            // Hill's method does not converge where kinks leave too many harmonics.
+            Err(_) => self
                 .variational
                 .multipliers(equations, &orbit)
                 .map_err(|_| Failure::NotConverged)?,
