@@ -72,9 +72,7 @@ fn multipliers_of_the_quadratic_case(speed: f64) -> Vec<Complex> {
         fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) {
             let x = y[0];
             rate[0] = y[1];
-            rate[1] = 2.0 * (self.0 * t).cos()
-                - 0.1 * y[1]
-                - x * (1.0 + x * (0.3 + 0.05 * x));
+            rate[1] = 2.0 * (self.0 * t).cos() - 0.1 * y[1] - x * (1.0 + x * (0.3 + 0.05 * x));
         }
     }
     impl Linearised for Equation {

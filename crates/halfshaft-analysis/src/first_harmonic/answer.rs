@@ -11,7 +11,8 @@ use halfshaft_results::{
 
 use super::births;
 use super::channels;
-use super::curve::{Curve, Grid, Kind, Piece, Sample, follow};
+use super::curve::{Curve, Kind, Piece, Sample, follow};
+use super::grid::Grid;
 use super::problem::{METHOD, Problem};
 use super::responses::Finder;
 use super::setting::{self, even};

@@ -5,10 +5,11 @@
 //! reaches across a frequency of the grid can be missed, closed ones included, and none can be taken
 //! for another.
 
+use super::grid::Grid;
 use super::locate;
 use super::path::{Corrected, Direction, Path, Place, dot};
 use super::problem::Problem;
-use super::responses::{Finder, Response, response};
+use super::responses::{Response, response};
 
 /// What a sample of a branch is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,19 +58,6 @@ pub(super) struct Curve {
     pub(super) cancelled: bool,
 }
 
-/// The grid: frequencies with all their responses.
-pub(super) struct Grid {
-    pub(super) nus: Vec<f64>,
-    rows: Vec<Vec<Known>>,
-    pub(super) open: usize,
-}
-
-#[derive(Clone, Copy)]
-struct Known {
-    response: Response,
-    passed: bool,
-}
-
 /// Largest scaled step, and the smallest before a branch is given up.
 const LONGEST: f64 = 0.12;
 const SHORTEST: f64 = 1e-9;
@@ -77,49 +65,6 @@ const SHORTEST: f64 = 1e-9;
 const UNITS: f64 = 12.0;
 /// Most samples of a branch.
 const MOST_SAMPLES: usize = 60_000;
-
-impl Grid {
-    /// All responses at ascending frequencies.
-    /// Ends early where that is asked for.
-    pub(super) fn new(
-        problem: &Problem,
-        finder: &Finder,
-        mut nus: Vec<f64>,
-        cancelled: &dyn Fn() -> bool,
-    ) -> Self {
-        let (mut rows, mut open) = (Vec::with_capacity(nus.len()), 0);
-        for nu in &nus {
-            if cancelled() {
-                break;
-            }
-            let found = finder.all(problem, *nu);
-            open += found.open;
-            let known = |response| Known { response, passed: false };
-            rows.push(found.list.into_iter().map(known).collect());
-        }
-        nus.truncate(rows.len());
-        Self { nus, rows, open }
-    }
-
-    fn largest(&self) -> f64 {
-        let all = self.rows.iter().flatten();
-        all.map(|known| known.response.amplitude()).fold(0.0, f64::max)
-    }
-
-    /// The known response nearest to a place on its frequency.
-    fn nearest(&self, row: usize, place: &Place) -> Option<usize> {
-        let distance = |known: &Known| {
-            (known.response.twist - place.twist).modulus()
-                + (known.response.at.mean - place.at.mean).abs()
-        };
-        let size = place.twist.modulus() + place.at.mean.abs();
-        let (index, known) = self.rows[row]
-            .iter()
-            .enumerate()
-            .min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))?;
-        (distance(known) <= 1e-5 * size).then_some(index)
-    }
-}
 
 /// Follows all branches through a grid.
 pub(super) fn follow(problem: &Problem, mut grid: Grid, cancelled: &dyn Fn() -> bool) -> Curve {

@@ -6,9 +6,10 @@
 
 use halfshaft_numerics::observer::Observer;
 
-use super::curve::{Grid, Kind, follow};
+use super::curve::{Kind, follow};
 use super::family::{Family, Spot};
 use super::fold_path::{Fold, FoldPath, Special};
+use super::grid::Grid;
 use super::path::{dot, norm};
 use super::responses::Finder;
 use super::setting::even;

@@ -23,6 +23,7 @@ mod family;
 mod fold_answer;
 mod fold_curves;
 mod fold_path;
+mod grid;
 mod jet;
 mod limbs;
 mod locate;

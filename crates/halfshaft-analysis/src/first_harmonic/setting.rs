@@ -4,7 +4,8 @@ use halfshaft_dynamics::laws::PolynomialLaw;
 use halfshaft_dynamics::{EquationsOfMotion, TorqueLaw};
 use halfshaft_numerics::dense::dot;
 
-use super::curve::{Curve, Grid, Kind, follow};
+use super::curve::{Curve, Kind, follow};
+use super::grid::Grid;
 use super::problem::{METHOD, Problem};
 use super::responses::Finder;
 use crate::equilibrium;

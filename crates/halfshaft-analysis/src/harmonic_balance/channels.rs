@@ -5,7 +5,8 @@ use halfshaft_numerics::Complex;
 use halfshaft_numerics::harmonics::{HarmonicSet, Sampler};
 use halfshaft_results::Named;
 
-use super::system::{HarmonicSystem, Place, differentiate};
+use super::alternating::differentiate;
+use super::system::{HarmonicSystem, Place};
 
 /// Mean, modulus of the first harmonic, half of peak to peak and both peaks of one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

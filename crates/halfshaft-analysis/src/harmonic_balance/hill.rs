@@ -227,7 +227,7 @@ fn operators(
     let (mut x, mut v) = (vec![0.0; count], vec![0.0; count]);
     sampler.samples(orbit.set, twist, &mut x);
     let mut rate = vec![0.0; twist.len()];
-    super::system::differentiate(orbit.set, twist, orbit.speed, &mut rate);
+    super::alternating::differentiate(orbit.set, twist, orbit.speed, &mut rate);
     sampler.samples(orbit.set, &rate, &mut v);
     let mut spectrum = Spectrum::default();
     let mut slopes: Vec<f64> = x.iter().map(|x| connection.law.stiffness(*x)).collect();

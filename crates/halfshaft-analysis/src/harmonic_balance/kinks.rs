@@ -207,7 +207,9 @@ mod tests {
         let law = halfshaft_dynamics::laws::TorqueLaw::OneSided(
             halfshaft_dynamics::laws::OneSidedContact::new(
                 0.0,
-                &halfshaft_dynamics::laws::PolynomialLaw::new([0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+                &halfshaft_dynamics::laws::PolynomialLaw::new([
+                    0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+                ]),
                 0.0,
             ),
         );
@@ -216,7 +218,8 @@ mod tests {
         twist[1] = 1.0;
         let pieces = law.pieces();
         let rate = vec![0.0; twist.len()];
-        let force = Force { set: &set, twist: &twist, rate: &rate, pieces: &pieces, friction: None };
+        let force =
+            Force { set: &set, twist: &twist, rate: &rate, pieces: &pieces, friction: None };
         let mut spectra = Spectra::default();
         KinkTransform::default().transform(&force, &[FRAC_PI_2, 3.0 * FRAC_PI_2], &mut spectra);
         let mut f = vec![0.0; set.coefficients()];

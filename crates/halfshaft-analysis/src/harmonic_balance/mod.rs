@@ -17,6 +17,7 @@
 //! | `channels`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
 //! | `layers` | single layers, for benches |
 
+mod alternating;
 mod answer;
 mod backbone;
 mod branches;

@@ -91,7 +91,11 @@ impl Turn {
         let reach = self.here + 2.0 * beyond;
         let top = bend < 0.0;
         let between = |level: f64| {
-            if top { level > self.here && level < reach } else { level <= self.here && level > reach }
+            if top {
+                level > self.here && level < reach
+            } else {
+                level <= self.here && level > reach
+            }
         };
         let mut turn = None;
         for level in levels.filter(|level| between(*level)) {
@@ -158,14 +162,16 @@ mod tests {
         for shift in [0.0, 0.013, 0.031, 0.049] {
             let (sin, cos) = f64::sin_cos(shift);
             let twist = [0.0, cos, sin, 0.0, 0.0];
-            let samples: Vec<f64> =
-                (0..64).map(|k| (f64::from(k) * std::f64::consts::TAU / 64.0 - shift).cos()).collect();
+            let samples: Vec<f64> = (0..64)
+                .map(|k| (f64::from(k) * std::f64::consts::TAU / 64.0 - shift).cos())
+                .collect();
             for gap in [1e-2, 1e-4, 1e-6, 1e-8] {
                 let level = 1.0 - gap;
                 let law = TorqueLaw::OneSided(OneSidedContact::new(level, &contact, 0.0));
                 let found = phases(&law.pieces(), &set, &twist, &samples);
                 let half = level.acos();
-                let mut exact = [shift - half, shift + half].map(|x| x.rem_euclid(std::f64::consts::TAU));
+                let mut exact =
+                    [shift - half, shift + half].map(|x| x.rem_euclid(std::f64::consts::TAU));
                 exact.sort_by(f64::total_cmp);
                 assert_eq!(found.len(), 2, "{shift} {gap}");
                 for (a, b) in found.iter().zip(exact) {

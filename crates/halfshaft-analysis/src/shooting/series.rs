@@ -180,7 +180,7 @@ mod tests {
             from: 0.0,
             to: 1.0,
             origin: 1.0,
-            torque: Polynomial::new(coefficients.to_vec()),
+            torque: Polynomial::new(coefficients),
         };
         let mut twist = ZERO;
         twist[0] = 3.0;

@@ -109,7 +109,8 @@ fn the_motion_is_that_of_the_integrator() {
             ..Settings::default()
         };
         let mut integrator = Dop853::new(motion, 0.0, &begin, settings).expect("starts");
-        let going = |_: halfshaft_numerics::ode::AcceptedStep<'_, _>| std::ops::ControlFlow::Continue(());
+        let going =
+            |_: halfshaft_numerics::ode::AcceptedStep<'_, _>| std::ops::ControlFlow::Continue(());
         integrate(&mut integrator, END, &[], |_, _, _| {}, going).expect("goes on");
         for (k, (a, b)) in arrived.state.iter().zip(integrator.state()).enumerate() {
             let b = (b - shift(k)) / scale(k);
@@ -147,7 +148,10 @@ fn variations_are_the_differences_of_the_motion() {
                 let exact =
                     if column < state.len() { matrix[(row, column)] } else { by_frequency[row] };
                 let size = exact.abs().max(1.0);
-                assert!((difference - exact).abs() < 2e-7 * size, "{row} {column}: {difference} {exact}");
+                assert!(
+                    (difference - exact).abs() < 2e-7 * size,
+                    "{row} {column}: {difference} {exact}"
+                );
             }
         }
     }

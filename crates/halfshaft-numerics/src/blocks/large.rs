@@ -124,8 +124,10 @@ fn subtract(row: &mut [f64], upper: &[f64], n: usize, from: usize, to: usize) {
     let [u0, u1, u2, u3] = [u0, u1, u2, u3].map(|u: &[f64]| &u[..count]);
     let [u4, u5, u6, u7] = [u4, u5, u6, u7].map(|u: &[f64]| &u[..count]);
     for at in 0..count {
-        let first = factors[0] * u0[at] + factors[1] * u1[at] + factors[2] * u2[at] + factors[3] * u3[at];
-        let second = factors[4] * u4[at] + factors[5] * u5[at] + factors[6] * u6[at] + factors[7] * u7[at];
+        let first =
+            factors[0] * u0[at] + factors[1] * u1[at] + factors[2] * u2[at] + factors[3] * u3[at];
+        let second =
+            factors[4] * u4[at] + factors[5] * u5[at] + factors[6] * u6[at] + factors[7] * u7[at];
         rest[at] -= first + second;
     }
 }

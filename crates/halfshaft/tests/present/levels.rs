@@ -73,7 +73,7 @@ fn real_methods_stand_side_by_side() {
         assert!((balance / integration - 1.0).abs() < 1e-7, "{row:?}");
         let (speed, closed, first) =
             (row.at.unwrap(), row.closed_form.unwrap(), row.first_harmonic.unwrap());
-        let (omega, alpha, beta, f) = (26.06, -0.679, 0.0951, 10.0);
+        let (omega, alpha, beta, f) = (26.06, -0.679, 0.0951_f64, 10.0);
         let bent = speed - omega - 3.0 * alpha / (8.0 * omega) * closed * closed;
         let drive = 2.0 * omega * closed * (0.5 * beta).hypot(bent);
         assert!((drive / f - 1.0).abs() < 1e-5, "{row:?}: {drive}");

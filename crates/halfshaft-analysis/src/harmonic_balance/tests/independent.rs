@@ -102,12 +102,12 @@ impl Waveform<'_> {
         let whole = |group: usize| equations.rigid.as_ref().map_or(0.0, |r| r.speeds[group]);
         let mut out = vec![0.0; equations.groups()];
         let mut size = 0.0;
-        for group in 0..equations.groups() {
+        for (group, out) in out.iter_mut().enumerate() {
             let inertia = equations.inertia[group]
                 * (moment.accelerations[group] + whole_acceleration * whole(group));
             let damper = equations.ground_damping[group]
                 * (moment.speeds[group] + whole_speed * whole(group));
-            out[group] += inertia + damper;
+            *out += inertia + damper;
             size += inertia.abs() + damper.abs();
         }
         for connection in &equations.connections {
@@ -203,8 +203,8 @@ pub(super) fn shoot(wave: &Waveform<'_>) -> Option<Shot> {
     };
     let (twist, rate) = (largest(0..n), largest(n..dimension));
     let size = |k: usize| if k < n { twist } else { rate };
-    let mut settings = PeriodicSettings::default();
-    settings.integration = Settings::with_tolerance(1e-13);
+    let integration = Settings::with_tolerance(1e-13);
+    let mut settings = PeriodicSettings { integration, ..PeriodicSettings::default() };
     settings.integration.absolute_tolerance =
         Tolerance::PerComponent((0..dimension).map(|k| 1e-13 * size(k)).collect());
     settings.integration.step_limit = 100_000;
@@ -289,8 +289,8 @@ pub(super) fn brute_force(
 ) -> Vec<Vec<f64>> {
     let mut motion = ElasticMotion::new(equations, frequency);
     let (n, dimension) = (motion.twists(), motion.dimension());
-    let mut settings = PeriodicSettings::default();
-    settings.integration = Settings::with_tolerance(1e-9);
+    let integration = Settings::with_tolerance(1e-9);
+    let mut settings = PeriodicSettings { integration, ..PeriodicSettings::default() };
     settings.integration.step_limit = 3000;
     settings.newton.iteration_limit = 15;
     let period = TAU / (base * frequency);

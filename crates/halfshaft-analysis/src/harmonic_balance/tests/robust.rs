@@ -7,6 +7,7 @@ use super::independent::{brute_force, responses_at, waveform};
 use super::lines::{Model, duffing, held, keys};
 use super::{Traced, lines, setting_of, traced};
 use crate::harmonic_balance::branches::TracedBranch;
+use crate::harmonic_balance::stability::Stability;
 use crate::harmonic_balance::tracer::{BranchEnd, Sample};
 
 /// Samples of one question at most: beyond that something goes round in circles.
@@ -164,7 +165,7 @@ fn stiff_meshes_are_rigid() {
     }
     // Too stiff to be integrated over a period: the multipliers come by Hill's method.
     let stiffer = nearly_sound(&model("stiffness = 1e11\ndamping = 10"), (7.0, 7.1));
-    assert!(stiffer.collected.branches[0].stability.iter().all(|s| s.is_stable()));
+    assert!(stiffer.collected.branches[0].stability.iter().all(Stability::is_stable));
 }
 
 // Source: the tip of a linear resonance is P / (c w), at w² = k - c²/2.
@@ -302,7 +303,8 @@ fn random_line(numbers: &[f64]) -> String {
     let count = 1 + (4.0 * next()) as usize;
     let mut model = Model::new();
     for k in 0..count {
-        let damping = if next() < 0.3 { format!("damping = {:?}", 0.2 * next()) } else { String::new() };
+        let damping =
+            if next() < 0.3 { format!("damping = {:?}", 0.2 * next()) } else { String::new() };
         model = model.inertia(&format!("n{k}"), 0.1 + 2.0 * next(), &damping);
     }
     let free = count > 1 && next() < 0.4;
