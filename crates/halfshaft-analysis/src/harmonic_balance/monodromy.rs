@@ -20,7 +20,9 @@ use halfshaft_numerics::dense::{Matrix, eigenvalues};
 use halfshaft_numerics::harmonics::HarmonicSet;
 
 use super::panels::{Panels, Tangent};
+use super::reduction::Reduction;
 use super::series::{DEGREE, Series, expand, friction_slope, stiffness};
+use super::structure::{Structure, WholeLine};
 use super::switching::passages;
 
 /// An orbit as the variational equation sees it.
@@ -37,9 +39,8 @@ pub(super) struct Orbit<'o> {
 pub(super) struct Variational {
     /// Pieces of the law of each connection; `None` for linear ones.
     laws: Vec<Option<Pieces>>,
-    /// Twists and rates, and the speed as a whole where it counts.
-    with_speed: bool,
-    columns: usize,
+    /// A few modes that a long line with few nonlinear connections is as good as.
+    reduction: Reduction,
 }
 
 /// Steps a period at most.
@@ -55,9 +56,7 @@ impl Variational {
         for index in nonlinear {
             laws[*index] = Some(equations.connections[*index].law.pieces());
         }
-        let with_speed = equations.rigid.as_ref().is_some_and(|rigid| rigid.ground_damping > 0.0);
-        let columns = 2 * equations.network.tree.len() + usize::from(with_speed);
-        Self { laws, with_speed, columns }
+        Self { laws, reduction: Reduction::new(nonlinear) }
     }
 
     /// The multipliers of an orbit, largest modulus first; of half a period for one that mirrors
@@ -75,31 +74,46 @@ impl Variational {
         Ok(values)
     }
 
-    /// The fundamental matrix in twists and their rates (over the fundamental frequency) from 0 to
-    /// `end`.
+    /// The fundamental matrix from 0 to `end`, in twists and their rates (over the fundamental
+    /// frequency), or in modes where a few are as good as the line.
     pub(super) fn monodromy(
         &mut self,
         equations: &EquationsOfMotion,
         orbit: &Orbit<'_>,
         end: f64,
     ) -> Result<Matrix, halfshaft_numerics::Error> {
-        // Panels as wide as the matrix where it is small, else as wide as keeps the work in the cache.
-        match self.columns {
-            0..=2 => self.run::<2>(equations, orbit, end),
-            3..=4 => self.run::<4>(equations, orbit, end),
-            5..=8 => self.run::<8>(equations, orbit, end),
-            _ => self.run::<16>(equations, orbit, end),
+        self.reduction.prepare(equations, orbit.speed * orbit.set.highest() as f64);
+        match self.reduction.modes() {
+            Some(modes) => self.in_panels(modes, equations, orbit, end),
+            None => self.in_panels(&WholeLine::new(equations), equations, orbit, end),
+        }
+    }
+
+    /// Panels as wide as the matrix where it is small, else as wide as keeps the work in the cache.
+    fn in_panels(
+        &self,
+        structure: &impl Structure,
+        equations: &EquationsOfMotion,
+        orbit: &Orbit<'_>,
+        end: f64,
+    ) -> Result<Matrix, halfshaft_numerics::Error> {
+        match structure.columns() {
+            0..=2 => self.run::<2>(structure, equations, orbit, end),
+            3..=4 => self.run::<4>(structure, equations, orbit, end),
+            5..=8 => self.run::<8>(structure, equations, orbit, end),
+            _ => self.run::<16>(structure, equations, orbit, end),
         }
     }
 
     fn run<const W: usize>(
         &self,
+        structure: &impl Structure,
         equations: &EquationsOfMotion,
         orbit: &Orbit<'_>,
         end: f64,
     ) -> Result<Matrix, halfshaft_numerics::Error> {
-        let mut panels = Panels::<W>::new(equations, self.columns, orbit.speed);
-        panels.start(equations, self.with_speed);
+        let mut panels = Panels::<W>::new(structure, orbit.speed);
+        let list = structure.connections();
         let mut t = 0.0;
         let mut steps = 0;
         let mut next = 0.0;
@@ -110,14 +124,14 @@ impl Variational {
             let pieces = self.active(orbit, f64::midpoint(t, goal));
             while t < goal {
                 if next == 0.0 {
-                    let tangents = self.tangents(equations, orbit, &pieces, t, goal - t);
-                    next = panels.longest_step(equations, &tangents);
+                    let tangents = self.tangents(equations, list, orbit, &pieces, (t, goal - t));
+                    next = panels.longest_step(structure, &tangents);
                 }
                 let left = goal - t;
                 // A sliver left over would cost a step of its own.
                 let mut step = if next > 0.8 * left { left.min(1.2 * next) } else { next };
-                let tangents = self.tangents(equations, orbit, &pieces, t, step);
-                let reach = panels.step(equations, &tangents, &mut step);
+                let tangents = self.tangents(equations, list, orbit, &pieces, (t, step));
+                let reach = panels.step(structure, &tangents, &mut step);
                 t = if step == left { goal } else { t + step };
                 next = CAUTION * reach;
                 steps += 1;
@@ -128,7 +142,7 @@ impl Variational {
                 }
             }
         }
-        Ok(panels.finish(equations, self.with_speed))
+        Ok(panels.finish(structure))
     }
 
     /// Times at which a twist passes a break of its law, and the end.
@@ -158,27 +172,29 @@ impl Variational {
         active
     }
 
+    /// Tangents of the listed connections, ascending.
     fn tangents(
         &self,
         equations: &EquationsOfMotion,
+        list: &[usize],
         orbit: &Orbit<'_>,
         pieces: &[Option<Piece>],
-        t: f64,
-        reach: f64,
+        (t, reach): (f64, f64),
     ) -> Vec<Tangent> {
         let zero = [0.0; DEGREE + 1];
-        let mut tangents: Vec<Tangent> = (equations.connections.iter())
-            .map(|connection| {
-                let (mut stiffness, mut damping) = (zero, zero);
-                stiffness[0] = connection.law.stiffness(0.0);
-                damping[0] = connection.damping;
-                Tangent { stiffness, stiffness_terms: 1, damping, damping_terms: 1 }
-            })
-            .collect();
+        let of = |index: &usize| {
+            let connection = &equations.connections[*index];
+            let (mut stiffness, mut damping) = (zero, zero);
+            stiffness[0] = connection.law.stiffness(0.0);
+            damping[0] = connection.damping;
+            Tangent { stiffness, stiffness_terms: 1, damping, damping_terms: 1 }
+        };
+        let mut tangents: Vec<Tangent> = list.iter().map(of).collect();
         let mut x = zero;
         for (connection, twist) in orbit.twists {
             let Some(piece) = &pieces[*connection] else { continue };
-            let tangent = &mut tangents[*connection];
+            let Ok(place) = list.binary_search(connection) else { continue };
+            let tangent = &mut tangents[place];
             expand(orbit.set, twist, orbit.speed, t, &mut x);
             stiffness(piece, &x, &mut tangent.stiffness);
             tangent.stiffness_terms = terms(&tangent.stiffness, reach);
