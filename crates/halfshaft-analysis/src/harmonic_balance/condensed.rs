@@ -60,9 +60,9 @@ pub(super) struct Condensed {
     pub(super) load: Vec<Dual>,
 }
 
-/// A pivot below this part of the stiffest edge of its group is damped up to it: the group taken out is at
-/// resonance there with its neighbours held, and a smaller pivot would cost more digits than the
-/// damper of this size does.
+/// A pivot below this part of the stiffest edge of its group is damped up to it: the group taken out
+/// is at resonance there with its neighbours held, and a smaller pivot would cost more digits than
+/// the damper of this size does. Only where the skeleton has too many undamped groups to keep them.
 const VANISHING: f64 = 1e-8;
 /// A pivot below this part of the stiffest connection is rounding, where no edge holds the group.
 const EMPTY: f64 = 1e-13;

@@ -4,7 +4,6 @@ use halfshaft_numerics::Complex;
 use halfshaft_numerics::dense::{Matrix, solve};
 
 use super::panels::{TERMS, Tangent};
-use super::series::DEGREE;
 use super::structure::{Structure, axpy, torque};
 
 /// Modes with unit mass: `y'' + C y' + ω² y + Σ w f = 0`.
@@ -82,39 +81,42 @@ impl Structure for Modes {
     }
 
     #[inline(always)]
-    fn recur<const W: usize>(
+    fn recur<const W: usize, const FUSED: bool>(
         &self,
         tangents: &[Tangent],
+        degree: usize,
         y: &mut [[f64; W]],
         twists: &mut [[f64; W]],
         net: &mut [[f64; W]],
     ) {
         let n = self.squares.len();
         for (w, row) in self.directions.chunks_exact(n).zip(twists.chunks_exact_mut(TERMS)) {
-            row[0] = sum(w, &y[..n]);
+            row[0] = twist::<W, FUSED>(w, &y[..n]);
         }
-        for power in 0..DEGREE - 1 {
+        for power in 0..degree - 1 {
             let (known, later) = y.split_at_mut((power + 2) * n);
             let (now, rates) = known[power * n..].split_at(n);
             let factor = -((power + 1) as f64);
             for (row, net) in self.damping.chunks_exact(n).zip(net.iter_mut()) {
-                let drag = sum(row, rates);
+                let drag = twist::<W, FUSED>(row, rates);
                 *net = [0.0; W];
-                axpy(factor, &drag, net);
+                axpy::<W, FUSED>(factor, &drag, net);
             }
             let parts = self.directions.chunks_exact(n).zip(tangents);
             for ((w, tangent), row) in parts.zip(twists.chunks_exact_mut(TERMS)) {
-                row[power + 1] = sum(w, rates);
-                let torque = torque(tangent, row, power);
-                w.iter().zip(net.iter_mut()).for_each(|(w, net)| axpy(-w, &torque, net));
+                row[power + 1] = twist::<W, FUSED>(w, rates);
+                let torque = torque::<W, FUSED>(tangent, row, power);
+                w.iter()
+                    .zip(net.iter_mut())
+                    .for_each(|(w, net)| axpy::<W, FUSED>(-w, &torque, net));
             }
             let scale = 1.0 / ((power + 1) * (power + 2)) as f64;
             for (((q, net), square), y) in
                 later[..n].iter_mut().zip(net.iter_mut()).zip(&self.squares).zip(now)
             {
-                axpy(-square, y, net);
+                axpy::<W, FUSED>(-square, y, net);
                 *q = [0.0; W];
-                axpy(scale, net, q);
+                axpy::<W, FUSED>(scale, net, q);
             }
         }
     }
@@ -131,8 +133,8 @@ impl Structure for Modes {
 
 /// `Σ w y` in all lanes.
 #[inline(always)]
-fn sum<const W: usize>(w: &[f64], y: &[[f64; W]]) -> [f64; W] {
+fn twist<const W: usize, const FUSED: bool>(w: &[f64], y: &[[f64; W]]) -> [f64; W] {
     let mut out = [0.0; W];
-    w.iter().zip(y).for_each(|(w, y)| axpy(*w, y, &mut out));
+    w.iter().zip(y).for_each(|(w, y)| axpy::<W, FUSED>(*w, y, &mut out));
     out
 }

@@ -7,7 +7,7 @@
 //! (k+1)(k+2) M q_{k+2} = -Σ_e w_e [ Σ_j k_j x_{k-j} + Σ_j c_j (k-j+1) x_{k-j+1} ] - (k+1) D q_{k+1}
 //! ```
 //!
-//! for panels of columns of the monodromy matrix, to degree 20, with the step that keeps the last terms
+//! for panels of columns of the monodromy matrix, to degree 20 or 32, with the step that keeps the last terms
 //! at rounding in all of them. Steps end where a twist passes from one piece of its law to another. The
 //! rigid-body angle of a free line is left out (its multiplier is 1 whatever happens), and so is its
 //! speed unless dampers to ground couple it. An orbit that mirrors itself after half a period needs
@@ -21,7 +21,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 
 use super::panels::{Panels, Tangent};
 use super::reduction::Reduction;
-use super::series::{DEGREE, Series, expand, friction_slope, stiffness};
+use super::series::{MOST, Series, Truncation, expand, friction_slope, stiffness};
 use super::structure::{Structure, WholeLine};
 use super::switching::passages;
 
@@ -46,7 +46,9 @@ pub(super) struct Variational {
 /// Steps a period at most.
 const MOST_STEPS: usize = 100_000;
 /// Terms of a tangent stiffness that change a step by less than this part are left out.
-const NEGLIGIBLE: f64 = 1e-17;
+const NEGLIGIBLE: f64 = 1e-15;
+/// Columns from which on series are longer.
+const MANY: usize = 12;
 /// Part of the longest step that the last step's terms allowed.
 const CAUTION: f64 = 0.92;
 
@@ -89,7 +91,8 @@ impl Variational {
         }
     }
 
-    /// Panels as wide as the matrix where it is small, else as wide as keeps the work in the cache.
+    /// Panels as wide as the matrix where it is small, else as wide as keeps the work in the
+    /// cache.
     fn in_panels(
         &self,
         structure: &impl Structure,
@@ -112,7 +115,9 @@ impl Variational {
         orbit: &Orbit<'_>,
         end: f64,
     ) -> Result<Matrix, halfshaft_numerics::Error> {
-        let mut panels = Panels::<W>::new(structure, orbit.speed);
+        let truncation =
+            if structure.columns() > MANY { Truncation::LONG } else { Truncation::SHORT };
+        let mut panels = Panels::<W>::new(structure, orbit.speed, truncation);
         let list = structure.connections();
         let mut t = 0.0;
         let mut steps = 0;
@@ -124,13 +129,21 @@ impl Variational {
             let pieces = self.active(orbit, f64::midpoint(t, goal));
             while t < goal {
                 if next == 0.0 {
-                    let tangents = self.tangents(equations, list, orbit, &pieces, (t, goal - t));
+                    let tangents = self.tangents(
+                        equations,
+                        list,
+                        orbit,
+                        &pieces,
+                        (t, goal - t),
+                        truncation.degree,
+                    );
                     next = panels.longest_step(structure, &tangents);
                 }
                 let left = goal - t;
                 // A sliver left over would cost a step of its own.
                 let mut step = if next > 0.8 * left { left.min(1.2 * next) } else { next };
-                let tangents = self.tangents(equations, list, orbit, &pieces, (t, step));
+                let tangents =
+                    self.tangents(equations, list, orbit, &pieces, (t, step), truncation.degree);
                 let reach = panels.step(structure, &tangents, &mut step);
                 t = if step == left { goal } else { t + step };
                 next = CAUTION * reach;
@@ -180,8 +193,9 @@ impl Variational {
         orbit: &Orbit<'_>,
         pieces: &[Option<Piece>],
         (t, reach): (f64, f64),
+        degree: usize,
     ) -> Vec<Tangent> {
-        let zero = [0.0; DEGREE + 1];
+        let zero = [0.0; MOST + 1];
         let of = |index: &usize| {
             let connection = &equations.connections[*index];
             let (mut stiffness, mut damping) = (zero, zero);
@@ -195,11 +209,11 @@ impl Variational {
             let Some(piece) = &pieces[*connection] else { continue };
             let Ok(place) = list.binary_search(connection) else { continue };
             let tangent = &mut tangents[place];
-            expand(orbit.set, twist, orbit.speed, t, &mut x);
-            stiffness(piece, &x, &mut tangent.stiffness);
+            expand(orbit.set, twist, orbit.speed, t, degree, &mut x);
+            stiffness(piece, &x, degree, &mut tangent.stiffness);
             tangent.stiffness_terms = terms(&tangent.stiffness, reach);
             if let Some(friction) = &equations.connections[*connection].friction {
-                friction_slope(friction, &x, &mut tangent.damping);
+                friction_slope(friction, &x, degree, &mut tangent.damping);
                 tangent.damping[0] += equations.connections[*connection].damping;
                 tangent.damping_terms = terms(&tangent.damping, reach);
             }

@@ -5,8 +5,8 @@
 
 use halfshaft_numerics::dense::Matrix;
 
-use super::series::{DEGREE, Series};
-use super::structure::Structure;
+use super::series::{MOST, Series, Truncation};
+use super::structure::{Structure, sum};
 
 /// Tangent stiffness and damping of one connection over a step.
 #[derive(Clone)]
@@ -17,10 +17,8 @@ pub(super) struct Tangent {
     pub(super) damping_terms: usize,
 }
 
-/// Size of the last terms of a step relative to the first.
-const ROUNDING: f64 = 1e-12;
 /// Coefficients of a row.
-pub(super) const TERMS: usize = DEGREE + 1;
+pub(super) const TERMS: usize = MOST + 1;
 
 /// Columns of the variational equation at one time.
 pub(super) struct Panels<const W: usize> {
@@ -36,6 +34,7 @@ pub(super) struct Panels<const W: usize> {
     count: usize,
     /// Rates are measured by it.
     speed: f64,
+    truncation: Truncation,
     /// Instructions of the processor at hand.
     arch: pulp::Arch,
 }
@@ -43,7 +42,7 @@ pub(super) struct Panels<const W: usize> {
 /// One step of one panel, or only its coefficients where no step is given, as work that runs with the
 /// widest instructions of the processor: a structure and no closure, because only that is sure to be
 /// compiled with them.
-struct PanelStep<'p, 'e, S: Structure, const W: usize> {
+struct PanelStep<'p, 'e, S: Structure, const W: usize, const FUSED: bool> {
     panels: &'p mut Panels<W>,
     structure: &'e S,
     tangents: &'e [Tangent],
@@ -51,7 +50,9 @@ struct PanelStep<'p, 'e, S: Structure, const W: usize> {
     step: Option<f64>,
 }
 
-impl<S: Structure, const W: usize> pulp::NullaryFnOnce for PanelStep<'_, '_, S, W> {
+impl<S: Structure, const W: usize, const FUSED: bool> pulp::NullaryFnOnce
+    for PanelStep<'_, '_, S, W, FUSED>
+{
     /// The longest step that the terms of the panel allow.
     type Output = f64;
 
@@ -59,11 +60,11 @@ impl<S: Structure, const W: usize> pulp::NullaryFnOnce for PanelStep<'_, '_, S, 
     fn call(self) -> f64 {
         let Self { panels, structure, tangents, panel, step } = self;
         panels.load(panel);
-        let Panels { coordinates, twists, net, .. } = panels;
-        structure.recur(tangents, coordinates, twists, net);
+        let Panels { coordinates, twists, net, truncation, .. } = panels;
+        structure.recur::<W, FUSED>(tangents, truncation.degree, coordinates, twists, net);
         let reach = panels.reach();
         if let Some(step) = step {
-            panels.advance(panel, step);
+            panels.advance::<FUSED>(panel, step);
         }
         reach
     }
@@ -71,7 +72,7 @@ impl<S: Structure, const W: usize> pulp::NullaryFnOnce for PanelStep<'_, '_, S, 
 
 impl<const W: usize> Panels<W> {
     /// The columns that the structure starts with.
-    pub(super) fn new(structure: &impl Structure, speed: f64) -> Self {
+    pub(super) fn new(structure: &impl Structure, speed: f64, truncation: Truncation) -> Self {
         let (count, columns) = (structure.coordinates(), structure.columns());
         let panels = columns.div_ceil(W);
         let mut state = vec![[0.0; W]; panels * 2 * count];
@@ -91,18 +92,34 @@ impl<const W: usize> Panels<W> {
             columns,
             count,
             speed,
+            truncation,
         }
     }
 
     /// The longest step that the terms of all panels allow.
     pub(super) fn longest_step(&mut self, structure: &impl Structure, tangents: &[Tangent]) -> f64 {
-        let arch = self.arch;
         let panels = self.state.len() / (2 * self.count);
         (0..panels)
-            .map(|panel| {
-                arch.dispatch(PanelStep { panels: self, structure, tangents, panel, step: None })
-            })
+            .map(|panel| self.work(structure, tangents, panel, None))
             .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Computes one panel, with products and sums in one where the processor can.
+    fn work(
+        &mut self,
+        structure: &impl Structure,
+        tangents: &[Tangent],
+        panel: usize,
+        step: Option<f64>,
+    ) -> f64 {
+        let arch = self.arch;
+        if matches!(arch, pulp::Arch::Scalar) {
+            let panels = self;
+            arch.dispatch(PanelStep::<_, W, false> { panels, structure, tangents, panel, step })
+        } else {
+            let panels = self;
+            arch.dispatch(PanelStep::<_, W, true> { panels, structure, tangents, panel, step })
+        }
     }
 
     /// Moves all panels on by `step`, which is made shorter where their terms do not allow it; gives
@@ -113,17 +130,12 @@ impl<const W: usize> Panels<W> {
         tangents: &[Tangent],
         step: &mut f64,
     ) -> f64 {
-        let arch = self.arch;
         let panels = self.state.len() / (2 * self.count);
         loop {
             let mut longest = f64::INFINITY;
             for panel in 0..panels {
-                let length = *step;
-                let step = Some(length);
-                let work = PanelStep { panels: self, structure, tangents, panel, step };
-                let reach = arch.dispatch(work);
-                longest = longest.min(reach);
-                if longest < 0.8 * length {
+                longest = longest.min(self.work(structure, tangents, panel, Some(*step)));
+                if longest < 0.8 * *step {
                     break;
                 }
             }
@@ -161,24 +173,25 @@ impl<const W: usize> Panels<W> {
             if last == 0.0 {
                 return f64::INFINITY;
             }
-            (ROUNDING * scale / last).powf(1.0 / power as f64)
+            (self.truncation.rounding * scale / last).powf(1.0 / power as f64)
         };
-        reach(DEGREE).min(reach(DEGREE - 1))
+        let degree = self.truncation.degree;
+        reach(degree).min(reach(degree - 1))
     }
 
     /// Writes coordinates and rates after `step` to the next state.
     #[inline(always)]
-    fn advance(&mut self, panel: usize, step: f64) {
+    fn advance<const FUSED: bool>(&mut self, panel: usize, step: f64) {
         let count = self.count;
         let from = 2 * panel * count;
         for at in 0..count {
             // q = q0 + q1 t + t² v(t): value and slope of v by Horner's rule.
             let (mut value, mut slope) = ([0.0_f64; W], [0.0_f64; W]);
-            for power in (2..=DEGREE).rev() {
+            for power in (2..=self.truncation.degree).rev() {
                 let term = &self.coordinates[power * count + at];
                 for lane in 0..W {
-                    slope[lane] = slope[lane] * step + value[lane];
-                    value[lane] = value[lane] * step + term[lane];
+                    slope[lane] = sum::<FUSED>(slope[lane], step, value[lane]);
+                    value[lane] = sum::<FUSED>(value[lane], step, term[lane]);
                 }
             }
             let (value0, rate) = (self.coordinates[at], self.coordinates[count + at]);

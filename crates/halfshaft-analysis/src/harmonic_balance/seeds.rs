@@ -28,8 +28,10 @@ pub(super) const FIRST_DRIVE: f64 = 1e-3;
 const FIRST_DRIVES: [f64; 4] = [FIRST_DRIVE, 1e-5, 1e-7, 1e-9];
 /// Drive to which a curve is followed.
 const LAST_DRIVE: f64 = 20.0;
-/// Samples of a curve at most.
+/// Samples of a curve at most, and that of long lines, where each costs as many times more as it has
+/// nodes more than ten.
 const MOST_SAMPLES: usize = 300;
+const LEAST_MOST_SAMPLES: usize = 60;
 /// Miss of the tangent on these rough curves.
 const ROUGH: f64 = 0.06;
 
@@ -93,7 +95,7 @@ pub(super) fn drive_curve(
         harmonics: Some(set.highest()),
         miss: ROUGH,
         longest: 1.0,
-        most_samples: MOST_SAMPLES,
+        most_samples: (10 * MOST_SAMPLES / line.nodes().max(10)).max(LEAST_MOST_SAMPLES),
         most_size: f64::INFINITY,
     };
     let mut tracer = Tracer::new(problem, settings, observer);

@@ -3,11 +3,27 @@
 use halfshaft_dynamics::laws::{Friction, Piece};
 use halfshaft_numerics::harmonics::HarmonicSet;
 
-/// Highest power of time that is kept.
-pub(super) const DEGREE: usize = 20;
+/// Highest power of time that has a place.
+pub(super) const MOST: usize = 32;
 
 /// Coefficients by power of time.
-pub(super) type Series = [f64; DEGREE + 1];
+pub(super) type Series = [f64; MOST + 1];
+
+/// How far series go, and when a step's last terms are nothing beside its first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Truncation {
+    /// Highest power of time that is kept, at most [`MOST`].
+    pub(super) degree: usize,
+    pub(super) rounding: f64,
+}
+
+impl Truncation {
+    /// For few columns, where the series of the tangents cost more than those of the columns.
+    pub(super) const SHORT: Self = Self { degree: 20, rounding: 1e-12 };
+    /// For many: a power of time costs as much as any other, and a step grows faster than their
+    /// number.
+    pub(super) const LONG: Self = Self { degree: MOST, rounding: 1e-11 };
+}
 
 /// Taylor coefficients about time `t` of the series `coefficients` with fundamental `speed`.
 pub(super) fn expand(
@@ -15,6 +31,7 @@ pub(super) fn expand(
     coefficients: &[f64],
     speed: f64,
     t: f64,
+    degree: usize,
     out: &mut Series,
 ) {
     out.fill(0.0);
@@ -35,7 +52,7 @@ pub(super) fn expand(
         let (a, b) = (coefficients[place], coefficients[place + 1]);
         // Value and slope over ν; each two powers on the sign changes.
         let (mut even, mut odd) = (a * cosine + b * sine, b * cosine - a * sine);
-        for (power, out) in out.iter_mut().enumerate() {
+        for (power, out) in out[..=degree].iter_mut().enumerate() {
             *out += even;
             let next = odd * nu * INVERSE[power + 1];
             odd = -even * nu * INVERSE[power + 1];
@@ -45,8 +62,8 @@ pub(super) fn expand(
 }
 
 /// `1 / k`.
-const INVERSE: [f64; DEGREE + 2] = {
-    let mut list = [0.0; DEGREE + 2];
+const INVERSE: [f64; MOST + 2] = {
+    let mut list = [0.0; MOST + 2];
     let mut k = 1;
     while k < list.len() {
         list[k] = 1.0 / k as f64;
@@ -56,7 +73,7 @@ const INVERSE: [f64; DEGREE + 2] = {
 };
 
 /// The tangent stiffness `P'(x - origin)` of a piece of a law along the twist `x`.
-pub(super) fn stiffness(piece: &Piece, x: &Series, out: &mut Series) {
+pub(super) fn stiffness(piece: &Piece, x: &Series, degree: usize, out: &mut Series) {
     out.fill(0.0);
     let coefficients = piece.torque.coefficients();
     let mut shifted = *x;
@@ -66,23 +83,23 @@ pub(super) fn stiffness(piece: &Piece, x: &Series, out: &mut Series) {
         out[0] = power as f64 * k;
     }
     for (power, k) in powers {
-        *out = product(out, &shifted);
+        *out = product(out, &shifted, degree);
         out[0] += power as f64 * k;
     }
 }
 
 /// The slope of regularised friction along the rate of twist, given the twist.
-pub(super) fn friction_slope(friction: &Friction, x: &Series, out: &mut Series) {
-    let mut w = [0.0; DEGREE + 1];
-    for power in 0..DEGREE {
+pub(super) fn friction_slope(friction: &Friction, x: &Series, degree: usize, out: &mut Series) {
+    let mut w = [0.0; MOST + 1];
+    for power in 0..degree {
         w[power] = (power + 1) as f64 * x[power + 1] / friction.speed_rad_s;
     }
     // tanh' = (1 - tanh²) w'.
-    let mut tanh = [0.0; DEGREE + 1];
-    let mut slope = [0.0; DEGREE + 1];
+    let mut tanh = [0.0; MOST + 1];
+    let mut slope = [0.0; MOST + 1];
     tanh[0] = w[0].tanh();
     slope[0] = (1.0 - tanh[0]) * (1.0 + tanh[0]);
-    for k in 0..DEGREE {
+    for k in 0..degree {
         let mut sum = 0.0;
         for i in 0..=k {
             sum += slope[i] * (k - i + 1) as f64 * w[k - i + 1];
@@ -94,12 +111,12 @@ pub(super) fn friction_slope(friction: &Friction, x: &Series, out: &mut Series) 
     out.iter_mut().zip(slope).for_each(|(out, slope)| *out = scale * slope);
 }
 
-fn product(a: &Series, b: &Series) -> Series {
-    let mut out = [0.0; DEGREE + 1];
+fn product(a: &Series, b: &Series, degree: usize) -> Series {
+    let mut out = [0.0; MOST + 1];
     let length = 1 + b.iter().rposition(|value| *value != 0.0).unwrap_or(0);
     let last = 1 + a.iter().rposition(|value| *value != 0.0).unwrap_or(0);
     for (i, factor) in a[..last].iter().enumerate() {
-        let room = (DEGREE + 1 - i).min(length);
+        let room = (degree + 1).saturating_sub(i).min(length);
         for (out, value) in out[i..i + room].iter_mut().zip(&b[..room]) {
             *out += factor * value;
         }
@@ -121,8 +138,8 @@ mod tests {
         let set = HarmonicSet::all(3);
         let x = [0.3, 1.0, -0.4, 0.0, 0.2, 0.05, -0.1];
         let (speed, t, dt) = (2.0, 0.7, 0.08);
-        let mut series = [0.0; DEGREE + 1];
-        expand(&set, &x, speed, t, &mut series);
+        let mut series = [0.0; MOST + 1];
+        expand(&set, &x, speed, t, MOST, &mut series);
         let exact = set.evaluate(&x, speed * (t + dt));
         assert!((value(&series, dt) - exact.0).abs() < 1e-14);
         let piece = Piece {
@@ -131,13 +148,13 @@ mod tests {
             origin: 0.1,
             torque: halfshaft_numerics::polynomial::Polynomial::new([0.0, 3.0, 0.0, -2.0]),
         };
-        let mut k = [0.0; DEGREE + 1];
-        stiffness(&piece, &series, &mut k);
+        let mut k = [0.0; MOST + 1];
+        stiffness(&piece, &series, MOST, &mut k);
         let by_hand = 3.0 - 6.0 * (exact.0 - 0.1).powi(2);
         assert!((value(&k, dt) - by_hand).abs() < 1e-13);
         let friction = Friction { torque_nm: 2.0, speed_rad_s: 5.0 };
-        let mut slope = [0.0; DEGREE + 1];
-        friction_slope(&friction, &series, &mut slope);
+        let mut slope = [0.0; MOST + 1];
+        friction_slope(&friction, &series, MOST, &mut slope);
         let by_hand = friction.slope(speed * exact.1);
         assert!((value(&slope, dt) - by_hand).abs() < 1e-9, "{} {by_hand}", value(&slope, dt));
     }

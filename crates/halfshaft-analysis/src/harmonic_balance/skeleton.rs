@@ -3,7 +3,8 @@
 //! The ends of nonlinear connections are kept. All other groups that hang on at most two others are
 //! eliminated, leaves first: on a tree that is everything, in as many steps as there are groups, each
 //! of which joins at most one pair of neighbours. What is left in a mesh (groups with three
-//! neighbours or more) is kept as well, and the block solver takes care of it.
+//! neighbours or more) is kept as well, and the block solver takes care of it. So are, up to a number,
+//! groups without any damping: taken out, they have a pole at their resonance with the neighbours held.
 
 use std::collections::BTreeSet;
 
@@ -44,6 +45,10 @@ impl Skeleton {
     pub(super) fn new(equations: &EquationsOfMotion, nonlinear: &[bool]) -> Self {
         let groups = equations.groups();
         let (graph, mut keep, edge_of) = Graph::of(equations, nonlinear);
+        let undamped = undamped(equations);
+        if undamped.iter().filter(|alone| **alone).count() <= MOST_UNDAMPED {
+            keep.iter_mut().zip(&undamped).for_each(|(keep, alone)| *keep |= alone);
+        }
         if !keep.contains(&true) {
             // A linear line: any group can stand for it.
             keep[groups - 1] = true;
@@ -81,6 +86,20 @@ impl Skeleton {
         let edges = graph.edges;
         Self { kept, node_of, steps, edges, edge_of, kept_edges, nonlinear, pattern }
     }
+}
+
+/// Undamped groups that are kept at most.
+const MOST_UNDAMPED: usize = 40;
+
+/// Which groups nothing damps.
+fn undamped(equations: &EquationsOfMotion) -> Vec<bool> {
+    let mut list: Vec<bool> = equations.ground_damping.iter().map(|d| *d == 0.0).collect();
+    for connection in equations.connections.iter().filter(|c| c.damping != 0.0) {
+        for (group, _) in [connection.from, connection.to].into_iter().flatten() {
+            list[group] = false;
+        }
+    }
+    list
 }
 
 struct Graph {

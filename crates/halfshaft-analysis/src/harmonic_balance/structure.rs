@@ -3,7 +3,6 @@
 use halfshaft_dynamics::{Connection, EquationsOfMotion};
 
 use super::panels::{TERMS, Tangent};
-use super::series::DEGREE;
 
 /// Coordinates of the variational equation, and its recurrence in them.
 pub(super) trait Structure {
@@ -20,11 +19,12 @@ pub(super) trait Structure {
     /// rates measured by `speed`.
     fn start(&self, speed: f64, set: &mut dyn FnMut(usize, usize, &[f64]));
 
-    /// All coefficients (power, coordinate) from those of powers 0 and 1. `twists` (connection, power)
-    /// and `net` are stores.
-    fn recur<const W: usize>(
+    /// All coefficients (power, coordinate) to power `degree` from those of powers 0 and 1. `twists`
+    /// (connection, power) and `net` are stores. `FUSED` where the processor multiplies and adds in one.
+    fn recur<const W: usize, const FUSED: bool>(
         &self,
         tangents: &[Tangent],
+        degree: usize,
         coordinates: &mut [[f64; W]],
         twists: &mut [[f64; W]],
         net: &mut [[f64; W]],
@@ -97,9 +97,10 @@ impl Structure for WholeLine<'_> {
     }
 
     #[inline(always)]
-    fn recur<const W: usize>(
+    fn recur<const W: usize, const FUSED: bool>(
         &self,
         tangents: &[Tangent],
+        degree: usize,
         angles: &mut [[f64; W]],
         twists: &mut [[f64; W]],
         net: &mut [[f64; W]],
@@ -107,35 +108,33 @@ impl Structure for WholeLine<'_> {
         let groups = self.equations.groups();
         let connections = &self.equations.connections;
         for (index, connection) in connections.iter().enumerate() {
-            twists[index * TERMS] = twist(connection, &angles[..groups]);
+            twists[index * TERMS] = twist::<W, FUSED>(connection, &angles[..groups]);
         }
-        for power in 0..DEGREE - 1 {
+        for power in 0..degree - 1 {
             net.fill([0.0; W]);
             let (known, later) = angles.split_at_mut((power + 2) * groups);
             let rates = &known[(power + 1) * groups..];
             for ((connection, tangent), row) in
                 connections.iter().zip(tangents).zip(twists.chunks_exact_mut(TERMS))
             {
-                row[power + 1] = twist(connection, rates);
-                let torque = torque(tangent, row, power);
+                row[power + 1] = twist::<W, FUSED>(connection, rates);
+                let torque = torque::<W, FUSED>(tangent, row, power);
                 if let Some((group, ratio)) = connection.from {
-                    axpy(-ratio, &torque, &mut net[group]);
+                    axpy::<W, FUSED>(-ratio, &torque, &mut net[group]);
                 }
                 if let Some((group, ratio)) = connection.to {
-                    axpy(ratio, &torque, &mut net[group]);
+                    axpy::<W, FUSED>(ratio, &torque, &mut net[group]);
                 }
             }
             let scale = 1.0 / ((power + 1) * (power + 2)) as f64;
             for group in 0..groups {
-                let net = &mut net[group];
+                let mut net = net[group];
                 let damping = self.equations.ground_damping[group];
                 if self.damped && damping != 0.0 {
-                    axpy(-damping * (power + 1) as f64, &rates[group], net);
+                    axpy::<W, FUSED>(-damping * (power + 1) as f64, &rates[group], &mut net);
                 }
                 let factor = scale * self.yielding[group];
-                for (q, net) in later[group].iter_mut().zip(net.iter()) {
-                    *q = factor * net;
-                }
+                later[group] = net.map(|net| factor * net);
             }
         }
     }
@@ -153,7 +152,7 @@ impl Structure for WholeLine<'_> {
 
 /// Coefficient of the torque of a connection at a power of time, from those of its twist.
 #[inline(always)]
-pub(super) fn torque<const W: usize>(
+pub(super) fn torque<const W: usize, const FUSED: bool>(
     tangent: &Tangent,
     twist: &[[f64; W]],
     power: usize,
@@ -161,12 +160,12 @@ pub(super) fn torque<const W: usize>(
     let mut torque = [0.0_f64; W];
     let terms = tangent.stiffness_terms.min(power + 1);
     for (k, x) in tangent.stiffness[..terms].iter().zip(twist[..=power].iter().rev()) {
-        axpy(*k, x, &mut torque);
+        axpy::<W, FUSED>(*k, x, &mut torque);
     }
     let terms = tangent.damping_terms.min(power + 1);
     for (j, c) in tangent.damping[..terms].iter().enumerate() {
         if *c != 0.0 {
-            axpy(c * (power - j + 1) as f64, &twist[power - j + 1], &mut torque);
+            axpy::<W, FUSED>(c * (power - j + 1) as f64, &twist[power - j + 1], &mut torque);
         }
     }
     torque
@@ -174,21 +173,31 @@ pub(super) fn torque<const W: usize>(
 
 /// Twist of a connection from the angles of the groups, all columns of a panel.
 #[inline(always)]
-fn twist<const W: usize>(connection: &Connection, angles: &[[f64; W]]) -> [f64; W] {
+fn twist<const W: usize, const FUSED: bool>(
+    connection: &Connection,
+    angles: &[[f64; W]],
+) -> [f64; W] {
     let mut x = [0.0; W];
     if let Some((group, ratio)) = connection.from {
-        axpy(ratio, &angles[group], &mut x);
+        axpy::<W, FUSED>(ratio, &angles[group], &mut x);
     }
     if let Some((group, ratio)) = connection.to {
-        axpy(-ratio, &angles[group], &mut x);
+        axpy::<W, FUSED>(-ratio, &angles[group], &mut x);
     }
     x
 }
 
 /// `y += factor x` in all lanes.
 #[inline(always)]
-pub(super) fn axpy<const W: usize>(factor: f64, x: &[f64; W], y: &mut [f64; W]) {
+pub(super) fn axpy<const W: usize, const FUSED: bool>(factor: f64, x: &[f64; W], y: &mut [f64; W]) {
     for lane in 0..W {
-        y[lane] += factor * x[lane];
+        y[lane] = sum::<FUSED>(factor, x[lane], y[lane]);
     }
+}
+
+/// `a b + c`.
+#[inline(always)]
+pub(super) fn sum<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+    // Without the instruction `mul_add` is a slow call.
+    if FUSED { a.mul_add(b, c) } else { a * b + c }
 }

@@ -64,7 +64,8 @@ impl Oscillator {
 /// Least and largest first harmonic of the (only) twist of each branch, by the latter.
 fn amplitudes(found: &Traced) -> Vec<(f64, f64)> {
     let mut list: Vec<(f64, f64)> = (found.collected.branches.iter())
-        .filter(|branch| branch.periods == 1)
+        // What breaks the mirror symmetry is beyond the truth below.
+        .filter(|branch| branch.periods == 1 && branch.samples.iter().all(|s| s.set.is_odd()))
         .map(|branch| {
             let first = branch.samples.iter().map(|s| s.set.modulus(&s.u, 1));
             first.fold((f64::INFINITY, 0.0_f64), |(low, high), a| (low.min(a), high.max(a)))

@@ -144,8 +144,10 @@ impl Waveform<'_> {
         let groups = self.equations.groups();
         let mut rows = Vec::new();
         let mut size = 0.0_f64;
-        for k in 0..PHASES {
-            let (row, sum) = self.missing(TAU * k as f64 / PHASES as f64);
+        // Enough for a law of degree seven not to fold its orders back on those of the set.
+        let phases = PHASES.max(8 * self.set.highest() + 2);
+        for k in 0..phases {
+            let (row, sum) = self.missing(TAU * k as f64 / phases as f64);
             size = size.max(sum);
             rows.push(row);
         }
@@ -155,10 +157,10 @@ impl Waveform<'_> {
             for &order in self.set.orders() {
                 let mut sum = Complex::default();
                 for (k, row) in rows.iter().enumerate() {
-                    let angle = TAU * (order * k) as f64 / PHASES as f64;
+                    let angle = TAU * (order * k) as f64 / phases as f64;
                     sum = sum + Complex::from_polar(row[group], -angle);
                 }
-                kept = kept.max(2.0 * sum.modulus() / PHASES as f64);
+                kept = kept.max(2.0 * sum.modulus() / phases as f64);
             }
         }
         (worst / size, kept / size)
