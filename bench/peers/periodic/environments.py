@@ -73,3 +73,11 @@ def halfshaft(given=None):
             "cargo build", ROOT)
     folder = target_folder() / "release"
     return folder / "halfshaft", folder / "examples" / "ask_repeatedly"
+
+
+def million_points():
+    """What the example of that name prints."""
+    quietly(["cargo", "build", "--release", "--quiet", "-p", "halfshaft-analysis", "--example",
+             "million_points"], "cargo build", ROOT)
+    program = target_folder() / "release" / "examples" / "million_points"
+    return subprocess.run([program], check=True, capture_output=True, text=True).stdout

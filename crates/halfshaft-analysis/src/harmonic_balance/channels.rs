@@ -26,6 +26,8 @@ pub(super) struct Channels {
     sampler: Sampler,
     samples: Vec<f64>,
     rates: Vec<f64>,
+    /// The first harmonic at the samples.
+    turns: Vec<Complex>,
 }
 
 /// Names and units of the channels of a line, in the order of their values.
@@ -55,7 +57,10 @@ impl Channels {
         let least = LEAST_TORQUE_SAMPLES.max(LEAST_SAMPLES).max(6 * set.highest());
         let sampler = Sampler::new(least.next_power_of_two());
         let count = sampler.count();
+        let turn = std::f64::consts::TAU * f64::from(periods) / count as f64;
+        let turns = (0..count).map(|k| Complex::from_polar(1.0, -turn * k as f64)).collect();
         Self {
+            turns,
             set: set.clone(),
             first: periods as usize,
             sampler,
@@ -93,7 +98,7 @@ impl Channels {
             let value = self.series(&twist);
             values.push(value);
             values.push(self.series(&rate));
-            values.push(self.torque(connection, &twist, &rate, value));
+            values.push(self.torque(connection, &twist, &rate, speed, value));
         }
         for node in &equations.nodes {
             let source = &groups[node.group * m..(node.group + 1) * m];
@@ -163,6 +168,7 @@ impl Channels {
         connection: &halfshaft_dynamics::Connection,
         twist: &[f64],
         rate: &[f64],
+        speed: f64,
         of_twist: ChannelValue,
     ) -> ChannelValue {
         if connection.law.is_linear() && connection.friction.is_none() {
@@ -187,21 +193,33 @@ impl Channels {
         }
         let count = self.samples.len();
         let spacing = std::f64::consts::TAU / count as f64;
-        let at =
-            |theta: f64| of(self.set.evaluate(twist, theta).0, self.set.evaluate(rate, theta).0);
         let mut ends = [0.0; 2];
-        for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
+        // Of a motion that mirrors itself the one end is the other's image.
+        let both = if self.set.is_odd() { 1 } else { 2 };
+        for (end, sign) in ends.iter_mut().zip([1.0, -1.0]).take(both) {
             let best = (0..count).fold(0, |best, at| {
                 if sign * self.samples[at] > sign * self.samples[best] { at } else { best }
             });
-            *end = climb(&at, spacing * best as f64, spacing, sign, self.samples[best]);
+            let near =
+                Near { start: spacing * best as f64, spacing, sign, value: self.samples[best] };
+            let smooth = connection.law.polynomial().is_some() && connection.friction.is_none();
+            let crest = if smooth { self.crest(connection, twist, speed, near) } else { None };
+            *end = crest.unwrap_or_else(|| {
+                let at = |theta: f64| {
+                    let (x, slope) = self.set.evaluate(twist, theta);
+                    of(x, speed * slope)
+                };
+                climb(&at, near)
+            });
+        }
+        if both == 1 {
+            ends[1] = -ends[0];
         }
         let mut mean = 0.0;
         let mut sum = Complex::default();
-        let turn = self.first as f64 * spacing;
-        for (index, torque) in self.samples.iter().enumerate() {
+        for (torque, turn) in self.samples.iter().zip(&self.turns) {
             mean += torque;
-            sum = sum + Complex::from_polar(*torque, -turn * index as f64);
+            sum = sum + turn.scaled(*torque);
         }
         let scale = 1.0 / count as f64;
         ChannelValue {
@@ -212,6 +230,47 @@ impl Channels {
             minimum: ends[1],
         }
     }
+
+    /// The greatest (least) torque of a smooth law near a sample, by secants on its slope.
+    fn crest(
+        &self,
+        connection: &halfshaft_dynamics::Connection,
+        twist: &[f64],
+        speed: f64,
+        near: Near,
+    ) -> Option<f64> {
+        let at = |theta: f64| {
+            let [x, slope, bend] = with_slopes(&self.set, twist, theta);
+            let torque = connection.law.torque(x) + connection.damping * speed * slope;
+            (torque, connection.law.stiffness(x) * slope + connection.damping * speed * bend)
+        };
+        let (mut before, mut here) = (near.start - 0.5 * near.spacing, near.start);
+        let mut slope_before = at(before).1;
+        for _ in 0..8 {
+            let (torque, slope) = at(here);
+            let step = -slope * (here - before) / (slope - slope_before);
+            if slope == 0.0 || step.abs() < 1e-8 {
+                // Not the crest if that falls off.
+                return (near.sign * torque >= near.sign * near.value).then_some(torque);
+            }
+            (before, slope_before) = (here, slope);
+            here += step;
+            if !step.is_finite() || (here - near.start).abs() > near.spacing {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+/// Where an extreme of samples is.
+#[derive(Clone, Copy)]
+struct Near {
+    start: f64,
+    spacing: f64,
+    /// 1 for the greatest, -1 for the least.
+    sign: f64,
+    value: f64,
 }
 
 /// Value, first and second derivative by the phase.
@@ -238,25 +297,23 @@ fn with_slopes(set: &HarmonicSet, coefficients: &[f64], theta: f64) -> [f64; 3] 
     out
 }
 
-/// The greatest value (least for a sign of -1) near a sample by parabolas of shrinking width.
-fn climb(value: &dyn Fn(f64) -> f64, start: f64, spacing: f64, sign: f64, sampled: f64) -> f64 {
-    let mut best = sampled;
-    let mut theta = start;
-    let mut width = spacing;
+/// The greatest (least) value near a sample by parabolas of shrinking width.
+fn climb(value: &dyn Fn(f64) -> f64, near: Near) -> f64 {
+    let (mut best, mut theta, mut width) = (near.value, near.start, near.spacing);
     for _ in 0..5 {
         let (before, here, after) = (value(theta - width), value(theta), value(theta + width));
         let bend = before - 2.0 * here + after;
         let offset = if bend == 0.0 { 0.0 } else { 0.5 * width * (before - after) / bend };
         theta += offset.clamp(-width, width);
         for candidate in [before, here, after] {
-            if sign * candidate > sign * best {
+            if near.sign * candidate > near.sign * best {
                 best = candidate;
             }
         }
         width *= 0.2;
     }
     let last = value(theta);
-    if sign * last > sign * best { last } else { best }
+    if near.sign * last > near.sign * best { last } else { best }
 }
 
 /// Coefficients of the angles of all groups, group by group.

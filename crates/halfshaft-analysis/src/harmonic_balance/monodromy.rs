@@ -61,6 +61,13 @@ impl Variational {
         Self { laws, reduction: Reduction::new(nonlinear) }
     }
 
+    /// The same without modes, for holding them against it.
+    #[cfg(test)]
+    pub(super) fn of_whole_lines(mut self) -> Self {
+        self.reduction = Reduction::new(&[]);
+        self
+    }
+
     /// The multipliers of an orbit, largest modulus first; of half a period for one that mirrors
     /// itself then, whose squares are those of the period.
     pub(super) fn multipliers(

@@ -7,6 +7,7 @@ mod every_sample;
 mod independent;
 #[path = "../../../tests/common/lines.rs"]
 mod lines;
+mod long;
 mod robust;
 
 use std::rc::Rc;
