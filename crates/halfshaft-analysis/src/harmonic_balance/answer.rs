@@ -164,8 +164,51 @@ pub(crate) fn solve(
     if let Some(range) = &question.parameter {
         return super::parameter_answer::solve(line, question, range, &setting, observer);
     }
-    let settings = trace_settings(&setting, question);
+    let collected = super::exact::collect(&setting, question, observer)
+        .unwrap_or_else(|| by_harmonics(&setting, question, observer));
+    let header = header(line, &Question::Resonance(question.clone()));
+    let mut measured = Measured::new(&setting, None);
+    let mut result = assemble(&setting, &collected, &mut measured, header);
+    result.jumps = jumps(&setting, &collected.branches);
+    messages(&setting, question, &collected, &mut result);
+    if question.backbone {
+        result.backbones = drawn_backbones(&setting, &equations, question, &collected, observer)?;
+    }
+    if question.verify {
+        super::verify::verify(&setting, &collected, &mut result, observer)?;
+    }
+    Ok(result)
+}
+
+/// Curves of phase resonance up to somewhat beyond the branches.
+fn drawn_backbones(
+    setting: &Setting,
+    equations: &EquationsOfMotion,
+    question: &ResonanceQuestion,
+    collected: &Collected,
+    observer: &dyn Observer,
+) -> Result<Vec<halfshaft_results::Table>, AnalysisError> {
+    let largest = collected.branches.iter().flat_map(|branch| &branch.samples);
+    let largest = largest.map(|sample| length(&sample.u)).fold(0.0, f64::max);
+    let settings = BackboneSettings {
+        frequency: setting.range,
+        tolerance: question.tolerance,
+        harmonics: question.harmonics,
+        most_drive: 3.0,
+        most_size: 1.5 * largest,
+    };
+    let states = equilibrium::find_stable(equations)?;
+    backbones(setting, &states, &settings, observer)
+}
+
+/// All branches with harmonics as unknowns.
+fn by_harmonics(
+    setting: &Setting,
+    question: &ResonanceQuestion,
+    observer: &dyn Observer,
+) -> Collected {
     let mut counted = Counted::default();
+    let settings = trace_settings(setting, question);
     let seeds = setting.seeds(question.harmonics, observer, &mut counted);
     let job = Job {
         line: &setting.line,
@@ -180,28 +223,7 @@ pub(crate) fn solve(
     };
     let mut collected = job.collect(&seeds);
     collected.counted.add(counted);
-    let header = header(line, &Question::Resonance(question.clone()));
-    let mut measured = Measured::new(&setting, None);
-    let mut result = assemble(&setting, &collected, &mut measured, header);
-    result.jumps = jumps(&setting, &collected.branches);
-    messages(&setting, question, &collected, &mut result);
-    if question.backbone {
-        let largest = collected.branches.iter().flat_map(|branch| &branch.samples);
-        let largest = largest.map(|sample| length(&sample.u)).fold(0.0, f64::max);
-        let settings = BackboneSettings {
-            frequency: setting.range,
-            tolerance: question.tolerance,
-            harmonics: question.harmonics,
-            most_drive: 3.0,
-            most_size: 1.5 * largest,
-        };
-        let states = equilibrium::find_stable(&equations)?;
-        result.backbones = backbones(&setting, &states, &settings, observer)?;
-    }
-    if question.verify {
-        super::verify::verify(&setting, &collected, &mut result, observer)?;
-    }
-    Ok(result)
+    collected
 }
 
 /// Settings of the continuation that a question asks for.
@@ -405,6 +427,8 @@ fn described(branch: &TracedBranch) -> String {
         BranchEnd::StepTooSmall => "where no step was small enough to go on",
         BranchEnd::SampleLimit => "after as many samples as allowed",
         BranchEnd::Unbounded => "where the response grows beyond all measure",
+        BranchEnd::Chattering => "where a contact closes and opens too often to be followed",
+        BranchEnd::Grazing => "where a twist grazes a break of its law",
         BranchEnd::Cancelled => "where it was stopped",
         BranchEnd::Enough => "where it meets another branch",
     };

@@ -10,6 +10,7 @@
 //! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
+//! | `exact` | branches of lines with kinks, by shooting |
 //! | `seeds`, `tips`, `branches`, `branching` | all branches, detached ones and those that branch off included |
 //! | `lines`, `fold_system`, `fold_points`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
@@ -25,6 +26,7 @@ mod branching;
 mod channels;
 mod closing;
 mod condensed;
+mod exact;
 mod fold_answer;
 mod fold_points;
 mod fold_system;
