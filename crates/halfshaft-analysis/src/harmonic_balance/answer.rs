@@ -52,6 +52,16 @@ impl Setting {
         frequency: Option<(f64, f64)>,
         mode: usize,
     ) -> Result<Self, AnalysisError> {
+        refuse(&equations)?;
+        Self::of_any(equations, frequency, mode)
+    }
+
+    /// The same, also where torques jump: for shooting alone.
+    pub(super) fn of_any(
+        equations: Rc<EquationsOfMotion>,
+        frequency: Option<(f64, f64)>,
+        mode: usize,
+    ) -> Result<Self, AnalysisError> {
         let orders = equations.excitation.orders();
         if orders.is_empty() {
             let reason = "no torque has an amplitude".to_owned();
@@ -63,7 +73,6 @@ impl Setting {
                 reason: "the orders of the torques have no common period".to_owned(),
             });
         };
-        refuse(&equations)?;
         let states = equilibrium::find_stable(&equations)?;
         let none = vec![0.0; equations.connections.len()];
         let rest = states.primary().map_or(none, |state| state.twists.clone());
@@ -136,16 +145,18 @@ impl Setting {
     }
 }
 
-/// Refuses what the method cannot represent, by name: a damper that acts in contact only makes the
-/// torque jump where the contact opens.
+/// Refuses what harmonics cannot represent, by name: a damper that acts in contact only makes the
+/// torque jump where the contact opens. Shooting follows such lines.
 fn refuse(equations: &EquationsOfMotion) -> Result<(), AnalysisError> {
     let jumps = |c: &&halfshaft_dynamics::Connection| !c.damps_in_gap && c.damping != 0.0;
     match equations.connections.iter().find(jumps) {
         Some(connection) if !connection.law.is_linear() => Err(AnalysisError::MethodDoesNotFit {
             method: "harmonic-balance",
             reason: format!(
-                "the damper of {} acts in contact only, so its torque jumps where the contact opens; \
-                 take damping_acts = \"always\", or --method first-harmonic",
+                "the damper of {} acts in contact only, so its torque jumps where the contact opens: \
+                 such a line is followed over the speed only, with the number of harmonics left open, \
+                 and where it has few inertias; take damping_acts = \"always\", or \
+                 --method first-harmonic",
                 connection.name
             ),
         }),
@@ -160,18 +171,25 @@ pub(crate) fn solve(
     observer: &dyn Observer,
 ) -> Result<ResonanceResult, AnalysisError> {
     let equations = Rc::new(EquationsOfMotion::new(line)?);
-    let setting = Setting::new(Rc::clone(&equations), question.frequency, question.mode)?;
+    let setting = Setting::of_any(Rc::clone(&equations), question.frequency, question.mode)?;
     if let Some(range) = &question.parameter {
+        refuse(&equations)?;
         return super::parameter_answer::solve(line, question, range, &setting, observer);
     }
-    let collected = super::exact::collect(&setting, question, observer)
-        .unwrap_or_else(|| by_harmonics(&setting, question, observer));
+    let collected = match super::exact::collect(&setting, question, observer) {
+        Some(collected) => collected,
+        None => {
+            refuse(&equations)?;
+            by_harmonics(&setting, question, observer)
+        }
+    };
     let header = header(line, &Question::Resonance(question.clone()));
     let mut measured = Measured::new(&setting, None);
     let mut result = assemble(&setting, &collected, &mut measured, header);
     result.jumps = jumps(&setting, &collected.branches);
     messages(&setting, question, &collected, &mut result);
     if question.backbone {
+        refuse(&equations)?;
         result.backbones = drawn_backbones(&setting, &equations, question, &collected, observer)?;
     }
     if question.verify {

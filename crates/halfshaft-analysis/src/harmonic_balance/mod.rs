@@ -15,7 +15,7 @@
 //! | `lines`, `fold_system`, `fold_points`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
-//! | `channels`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
+//! | `channels`, `breaks`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
 //! | `layers` | single layers, for benches |
 
 mod alternating;
@@ -23,6 +23,7 @@ mod answer;
 mod backbone;
 mod branches;
 mod branching;
+mod breaks;
 mod channels;
 mod closing;
 mod condensed;

@@ -1,17 +1,17 @@
 //! Branches of exact orbits as responses with harmonics.
 
 use halfshaft_model::question::{ResonanceQuestion, StabilityMethod};
-use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
 use super::super::answer::{Setting, trace_settings};
-use super::super::branches::{Collected, TracedBranch};
-use super::super::orbits::{coefficients_of, state_of_series};
-use super::super::special::Special;
-use super::super::tracer::{BranchEnd, Counted, LEAST_HARMONICS, Sample, length};
-use super::curve::{Curve, Limits};
-use super::explorer::{ExactBranch, Explorer, Guess};
-use super::point::{Kind, Point};
+use super::super::branches::Collected;
+use super::super::orbits::state_of_series;
+use super::super::tracer::{BranchEnd, Counted};
+use super::curve::Limits;
+use super::explorer::{Explorer, Guess};
+use super::gaps::{gaps, inside};
+use super::point::Kind;
+use super::responses::{ORDERS, Responses};
 use super::seeds;
 use crate::shooting::{Lost, Shooter};
 
@@ -25,10 +25,6 @@ const CURVES: usize = 3;
 const SETTLINGS: usize = 9;
 /// Correction of a point of a branch that is the last one, relative.
 const ENOUGH: f64 = 1e-8;
-/// Highest orders that are tried, one after the other.
-const ORDERS: [usize; 4] = [64, 200, 600, 1200];
-/// Orders of sets: few different ones.
-const RUNGS: [usize; 16] = [3, 5, 9, 15, 25, 39, 59, 89, 129, 199, 299, 399, 599, 799, 999, 1199];
 
 /// All branches by shooting; `None` where that does not fit the line or the question.
 pub(in super::super) fn collect(
@@ -79,6 +75,7 @@ impl<'s> Search<'s> {
 
     fn run(mut self) -> Option<Collected> {
         let observer = self.explorer.observer;
+        let (low, high) = self.setting.range;
         let (single, several): (Vec<Guess>, Vec<Guess>) =
             self.guesses().into_iter().partition(|guess| guess.kind.periods == 1);
         for guess in single {
@@ -94,7 +91,11 @@ impl<'s> Search<'s> {
         for guess in &several {
             self.explorer.add(guess);
         }
-        self.let_run();
+        self.let_run(&spread(low, high, SETTLINGS));
+        self.explorer.branch_off();
+        for gap in gaps(&self.explorer.branches, (low, high)) {
+            self.let_run(&inside(gap));
+        }
         self.explorer.branch_off();
         self.explorer.merge();
         if self.explorer.branches.is_empty() {
@@ -143,15 +144,14 @@ impl<'s> Search<'s> {
         guesses
     }
 
-    /// Lets the line run at speeds over the range and adds what it settles to.
-    fn let_run(&mut self) {
-        let (low, high) = self.setting.range;
+    /// Lets the line run at speeds and adds what it settles to.
+    fn let_run(&mut self, speeds: &[f64]) {
         let points = self.explorer.branches.iter().flat_map(|branch| &branch.points);
         let size = seeds::largest(points);
         let size = if size > 0.0 { size } else { 1.0 };
         let mut shooter = self.explorer.shooter.of_kind(self.kind.base, false);
         let rest = seeds::at_rest(&self.setting.line.equations, &self.setting.rest, &shooter);
-        for p in spread(low, high, SETTLINGS) {
+        for &p in speeds {
             for start in seeds::starts(&rest, size) {
                 if self.explorer.observer.cancelled() {
                     return;
@@ -174,12 +174,30 @@ impl<'s> Search<'s> {
             exhausted: false,
             cancelled,
             messages: self.explorer.messages.clone(),
+            exact: true,
         };
         all.counted.add(self.explorer.counted);
-        let mut responses = Responses { setting: self.setting, tolerance: self.tolerance };
+        let responses = Responses { setting: self.setting, tolerance: self.tolerance };
+        let mut exhausted = false;
         for branch in self.explorer.branches.clone() {
             let mut curve = self.explorer.curve(branch.kind);
-            all.branches.push(responses.branch(&mut curve, branch, &mut all.exhausted));
+            all.branches.push(responses.branch(&mut curve, branch, &mut exhausted));
+        }
+        if exhausted {
+            all.messages.push(format!(
+                "even {} harmonics leave more than the tolerance of {:e} of some waveforms; see the \
+                 column truncation",
+                ORDERS[ORDERS.len() - 1],
+                self.tolerance
+            ));
+        }
+        let alone = gaps(&self.explorer.branches, self.setting.range);
+        for (from, to) in alone {
+            all.messages.push(format!(
+                "no stable periodic response was found between {from:.6} and {to:.6} rad/s: the motion \
+                 does not repeat there within {} periods, or does so only after very long",
+                seeds::MOST_MULTIPLE
+            ));
         }
         all.cancelled |= all.branches.iter().any(|b| b.ends.contains(&BranchEnd::Cancelled));
         all
@@ -196,112 +214,4 @@ fn spread(low: f64, high: f64, count: usize) -> Vec<f64> {
     let mut places = vec![low, high];
     places.extend((1..count - 1).map(at));
     places
-}
-
-/// Makes responses of orbits.
-struct Responses<'s> {
-    setting: &'s Setting,
-    tolerance: f64,
-}
-
-impl Responses<'_> {
-    fn branch(
-        &mut self,
-        curve: &mut Curve<'_, '_>,
-        branch: ExactBranch,
-        exhausted: &mut bool,
-    ) -> TracedBranch {
-        let mut samples = Vec::with_capacity(branch.points.len());
-        for point in &branch.points {
-            samples.extend(self.sample(curve, point, exhausted));
-        }
-        let mut specials = Vec::new();
-        for special in &branch.specials {
-            let Some(sample) = self.sample(curve, &special.point, exhausted) else { continue };
-            specials.push(Special {
-                kind: special.kind,
-                after: special.after,
-                sample,
-                stability: Some(special.point.stability.clone()),
-                precision: special.precision,
-                located: special.located,
-                change: special.change,
-                note: special.note.clone(),
-                touch: None,
-            });
-        }
-        TracedBranch { samples, specials, ..TracedBranch::from(branch) }
-    }
-
-    /// The response of an orbit with as many harmonics as the tolerance asks for.
-    fn sample(
-        &self,
-        curve: &mut Curve<'_, '_>,
-        point: &Point,
-        exhausted: &mut bool,
-    ) -> Option<Sample> {
-        let line = &self.setting.line;
-        let base = curve.kind.base;
-        let of = |highest: usize| {
-            if curve.kind.mirrored { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) }
-        };
-        let least = LEAST_HARMONICS.max(self.setting.excited() * curve.kind.periods as usize);
-        let mut known = None;
-        for most in ORDERS {
-            let set = of(most.max(least));
-            let u = coefficients_of(line, base, &mut curve.shooter, &point.orbit, &set).ok()?;
-            let tails = tails(&set, &u);
-            let enough = tails.iter().position(|tail| *tail < self.tolerance);
-            let enough = enough.unwrap_or(most);
-            known = Some((set, u, tails, enough));
-            // Beyond two thirds of the orders the tail is not all seen.
-            if 3 * enough <= 2 * most {
-                break;
-            }
-        }
-        let (set, u, tails, enough) = known?;
-        let highest = RUNGS.into_iter().find(|rung| *rung >= enough).unwrap_or(set.highest());
-        let kept = of(highest.clamp(least, set.highest().max(least)));
-        let truncation = tails.get(kept.highest()).copied().unwrap_or(0.0);
-        *exhausted |= 3 * enough > 2 * ORDERS[ORDERS.len() - 1];
-        Some(Sample {
-            u: super::super::tracer::refit(&set, &kept, 1, &u),
-            set: kept,
-            p: point.p(),
-            tangent: Vec::new(),
-            tangent_p: point.tangent_p,
-            metric: (point.size, 1.0),
-            orientation: point.orientation,
-            truncation,
-        })
-    }
-}
-
-/// What the orders above each order leave of the vibration, relative, for the node where it is most.
-fn tails(set: &HarmonicSet, u: &[f64]) -> Vec<f64> {
-    let m = set.coefficients();
-    let mean = usize::from(!set.is_odd());
-    let mut tails = vec![0.0_f64; set.highest() + 1];
-    for node in u.chunks_exact(m) {
-        let whole = length(&node[mean..]);
-        if whole == 0.0 {
-            continue;
-        }
-        let mut sum = 0.0_f64;
-        let mut above = set.highest() + 1;
-        for (order, place) in set.places().collect::<Vec<_>>().into_iter().rev() {
-            // The tail beyond `order`, and beyond those left out between it and the next.
-            for tail in &mut tails[order..above] {
-                *tail = tail.max(sum.sqrt() / whole);
-            }
-            above = order;
-            if order > 0 {
-                sum += node[place] * node[place] + node[place + 1] * node[place + 1];
-            }
-        }
-        for tail in &mut tails[..above] {
-            *tail = tail.max(sum.sqrt() / whole);
-        }
-    }
-    tails
 }

@@ -14,13 +14,17 @@
 //! | `explorer` | seeds followed, told apart, joined |
 //! | `fork` | branches that branch off |
 //! | `seeds` | orbits to begin with: over the drive, and by letting the line run |
-//! | `answer` | orbits as responses with harmonics |
+//! | `gaps` | where nothing stable is known yet |
+//! | `responses` | orbits as responses with harmonics |
+//! | `answer` | all of it |
 
 mod answer;
 mod curve;
 mod explorer;
 mod fork;
+mod gaps;
 mod point;
+mod responses;
 mod seeds;
 mod special;
 mod touch;

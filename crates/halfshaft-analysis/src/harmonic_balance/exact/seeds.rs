@@ -89,7 +89,7 @@ pub(super) fn at_rest(
 /// Periods of the excitation after which a motion that does not repeat is given up.
 const MOST_PERIODS: usize = 160;
 /// Periods of an orbit at most.
-const MOST_MULTIPLE: usize = 4;
+pub(super) const MOST_MULTIPLE: usize = 4;
 /// Periods between looks whether the motion repeats.
 const LOOK: usize = 10;
 /// A motion repeats when its state comes back to this part of its size.
