@@ -20,6 +20,9 @@ const SETTLING: usize = 150;
 /// Speeds of a sweep.
 const SPEEDS: usize = 45;
 
+/// Relative error of amplitudes by the fixed steps: they see turning points to the square of a step.
+const AT_SAMPLES: f64 = 2e-4;
+
 /// A line of at most two inertias with one gap.
 struct Motion {
     /// Accelerations at angles and speeds under a harmonic torque of the given value.
@@ -190,8 +193,14 @@ fn hold_against_sweeps(text: &str, channel: &str, range: (f64, f64), motion: &Mo
             if let Some((speed, before, same)) = last
                 && (same != periods || (amplitude / before - 1.0).abs() > 0.25)
             {
+                // A step in speed is a push: it may throw the motion off up to a step early.
                 let (low, high) = (speed.min(frequency), speed.max(frequency));
-                assert!(changes_between(&result.branches, low, high), "jump in {low}..{high}");
+                let (low, high) = (2.0 * low - high, 2.0 * high - low);
+                assert!(
+                    changes_between(&result.branches, low, high),
+                    "up {up}: jump in {low}..{high} from {before} every {same} to {amplitude} every \
+                     {periods}"
+                );
                 jumps += 1;
             }
             last = Some((frequency, amplitude, periods));
@@ -199,6 +208,29 @@ fn hold_against_sweeps(text: &str, channel: &str, range: (f64, f64), motion: &Mo
     }
     assert!(compared > SPEEDS, "{compared}");
     assert!(jumps > 0);
+    hold_at_samples(&result, channel, motion);
+}
+
+/// At speeds of samples the motion's own amplitude is that of a sample, far more precisely than between
+/// them.
+fn hold_at_samples(result: &ResonanceResult, channel: &str, motion: &Motion) {
+    let mut speeds: Vec<f64> = Vec::new();
+    for branch in result.branches.iter().filter(|branch| branch.periods == 1) {
+        let stable = branch.values("stable");
+        let all =
+            branch.values("frequency").iter().zip(stable).filter(|(_, stable)| **stable == 1.0);
+        speeds.extend(all.map(|(speed, _)| *speed).step_by(9));
+    }
+    speeds.sort_by(f64::total_cmp);
+    let mut state = motion.start;
+    let mut held = 0;
+    for frequency in speeds {
+        let Some((amplitude, 1)) = motion.settled(&mut state, frequency) else { continue };
+        let known = stable_at(&result.branches, 1, channel, frequency);
+        let near = |value: &f64| (value / amplitude - 1.0).abs() < AT_SAMPLES;
+        held += usize::from(known.iter().any(near));
+    }
+    assert!(held >= 6, "{held}");
 }
 
 // One inertia held through a gap of 2 rad, pressed to one side by a mean torque.

@@ -23,6 +23,9 @@ const MOST_STEPS: usize = 4000;
 const CURVES: usize = 3;
 /// Speeds at which the line is let run.
 const SETTLINGS: usize = 9;
+/// States from which it is let run at each of them, and at those where nothing stable is known.
+const STARTS: usize = 4;
+const STARTS_IN_GAPS: usize = 2;
 /// Correction of a point of a branch that is the last one, relative.
 const ENOUGH: f64 = 1e-8;
 
@@ -91,10 +94,10 @@ impl<'s> Search<'s> {
         for guess in &several {
             self.explorer.add(guess);
         }
-        self.let_run(&spread(low, high, SETTLINGS));
+        self.let_run(&spread(low, high, SETTLINGS), STARTS);
         self.explorer.branch_off();
         for gap in gaps(&self.explorer.branches, (low, high)) {
-            self.let_run(&inside(gap));
+            self.let_run(&inside(gap), STARTS_IN_GAPS);
         }
         self.explorer.branch_off();
         self.explorer.merge();
@@ -145,14 +148,14 @@ impl<'s> Search<'s> {
     }
 
     /// Lets the line run at speeds and adds what it settles to.
-    fn let_run(&mut self, speeds: &[f64]) {
+    fn let_run(&mut self, speeds: &[f64], starts: usize) {
         let points = self.explorer.branches.iter().flat_map(|branch| &branch.points);
         let size = seeds::largest(points);
         let size = if size > 0.0 { size } else { 1.0 };
         let mut shooter = self.explorer.shooter.of_kind(self.kind.base, false);
         let rest = seeds::at_rest(&self.setting.line.equations, &self.setting.rest, &shooter);
         for &p in speeds {
-            for start in seeds::starts(&rest, size) {
+            for start in seeds::starts(&rest, size).into_iter().take(starts) {
                 if self.explorer.observer.cancelled() {
                     return;
                 }

@@ -7,6 +7,7 @@
 use halfshaft_numerics::observer::Observer;
 
 use super::super::tracer::BranchEnd;
+use super::closing::Rejoined;
 use super::point::{Across, Kind, Metric, Point, point_of};
 use super::touch::Turns;
 use crate::shooting::{Lost, Orbit, Shooter};
@@ -30,10 +31,12 @@ pub(super) struct Limits {
 
 /// Shortest step, in the metric.
 const SHORTEST: f64 = 1e-9;
+/// Steps down to this are tried where the branch leaps to another.
+const LEAP: f64 = 1e-6;
 /// Part of a step in which direction may turn: cosine of the angle.
 const LEAST_TURN: f64 = 0.5;
 /// A twist that turns this near to a break of its law, relative to the swing, grazes it.
-const GRAZING: f64 = 1e-4;
+const GRAZING: f64 = 1e-3;
 
 /// A family of orbits that is followed.
 pub(super) struct Curve<'c, 'e> {
@@ -41,6 +44,10 @@ pub(super) struct Curve<'c, 'e> {
     pub(super) kind: Kind,
     pub(super) limits: Limits,
     pub(super) observer: &'c dyn Observer,
+    /// Whether the line has mirror images of its orbits.
+    pub(super) odd: bool,
+    /// The orbit behind the last one where the branch came back to another.
+    pub(super) beyond: Option<Point>,
     turns: Turns,
     pub(super) steps: usize,
     pub(super) corrections: usize,
@@ -63,13 +70,15 @@ impl<'c, 'e> Curve<'c, 'e> {
     pub(super) fn new(
         shooter: Shooter<'e>,
         kind: Kind,
+        odd: bool,
         limits: Limits,
         observer: &'c dyn Observer,
     ) -> Self {
         let turns = Turns::new(shooter.equations());
         let mut shooter = shooter.of_kind(kind.base, kind.mirrored);
         shooter.set_enough(limits.enough);
-        Self { shooter, kind, limits, observer, turns, steps: 0, corrections: 0 }
+        let beyond = None;
+        Self { shooter, kind, limits, observer, odd, beyond, turns, steps: 0, corrections: 0 }
     }
 
     pub(super) fn metric(&self, size: f64) -> Metric {
@@ -144,6 +153,7 @@ impl<'c, 'e> Curve<'c, 'e> {
         let mut points = vec![start.clone().oriented(sign)];
         let mut step = 0.02_f64.min(self.limits.longest);
         let (low, high) = self.limits.range;
+        let images = self.images(start);
         let end = loop {
             if self.observer.cancelled() {
                 break BranchEnd::Cancelled;
@@ -163,6 +173,28 @@ impl<'c, 'e> Curve<'c, 'e> {
                         points.push(points[0].clone());
                         break BranchEnd::Closed;
                     }
+                    let last = &points[points.len() - 1];
+                    match self.rejoins(last, &next) {
+                        Rejoined::No => {}
+                        Rejoined::Yes => {
+                            self.beyond = Some(next);
+                            break BranchEnd::Enough;
+                        }
+                        Rejoined::Suddenly => {
+                            let (_, _, taken) = self.metric(last.size).step(last, &next);
+                            step = 0.3 * taken.min(step);
+                            if step > LEAP {
+                                continue;
+                            }
+                            break self.why(Lost::NotConverged, points.last());
+                        }
+                    }
+                    let place =
+                        |state: &Vec<f64>| self.passes(last, &next, (state, start.p()), start.size);
+                    if points.len() > 3 && images.iter().any(place) {
+                        points.push(points[0].clone());
+                        break BranchEnd::Closed;
+                    }
                     let unbounded = next.size > self.limits.most_size;
                     points.push(next);
                     if unbounded {
@@ -175,13 +207,16 @@ impl<'c, 'e> Curve<'c, 'e> {
         (points, end)
     }
 
+    /// Whether a twist turns next to a break of its law.
+    pub(super) fn grazes(&self, point: &Point) -> bool {
+        point.turns.nearest(self.shooter.equations()) < GRAZING * point.size
+    }
+
     /// Why no step was small enough.
     fn why(&self, lost: Lost, last: Option<&Point>) -> BranchEnd {
-        let grazes =
-            |point: &Point| point.turns.nearest(self.shooter.equations()) < GRAZING * point.size;
         match lost {
             Lost::Chattering => BranchEnd::Chattering,
-            _ if last.is_some_and(grazes) => BranchEnd::Grazing,
+            _ if last.is_some_and(|last| self.grazes(last)) => BranchEnd::Grazing,
             _ => BranchEnd::StepTooSmall,
         }
     }
@@ -258,25 +293,6 @@ impl<'c, 'e> Curve<'c, 'e> {
         self.corrections += 1;
         let orbit = self.shooter.at(&guess.state, border).ok()?;
         self.point(orbit, Some((&inside.tangent, inside.tangent_p))).ok()
-    }
-
-    /// Whether the step from the last point to `next` passes the first point in its direction.
-    fn comes_back(&self, points: &[Point], next: &Point) -> bool {
-        let (Some(first), Some(last)) = (points.first(), points.last()) else { return false };
-        let metric = self.metric(first.size);
-        let ahead = (first.tangent.as_slice(), first.tangent_p);
-        let from_first = |point: &Point| {
-            let (d, d_p, distance) = metric.step(first, point);
-            (distance, metric.dot((&d, d_p), ahead))
-        };
-        let (distance_a, along_a) = from_first(last);
-        let (distance_b, along_b) = from_first(next);
-        let (step, step_p, length) = metric.step(last, next);
-        metric.dot((&step, step_p), ahead) > 0.7 * length
-            && along_a <= 0.0
-            && along_b >= 0.0
-            && distance_a <= 1.1 * length
-            && distance_b <= 1.1 * length
     }
 }
 

@@ -4,6 +4,7 @@ use halfshaft_numerics::observer::Observer;
 
 use super::super::branches::TracedBranch;
 use super::super::tracer::{BranchEnd, Counted};
+use super::closing::SAME;
 use super::curve::{Curve, Limits};
 use super::point::{Kind, Point};
 use super::special::ExactSpecial;
@@ -44,11 +45,6 @@ pub(super) struct Explorer<'x, 'e> {
     pub(super) messages: Vec<String>,
 }
 
-/// Orbits farther than this from the chord of two points are not between them, in the metric.
-const REACH: f64 = 0.1;
-/// Orbits this near, relative to their swing, are the same.
-const SAME: f64 = 1e-5;
-
 impl<'x, 'e> Explorer<'x, 'e> {
     pub(super) fn new(
         shooter: Shooter<'e>,
@@ -71,7 +67,7 @@ impl<'x, 'e> Explorer<'x, 'e> {
     }
 
     pub(super) fn curve(&self, kind: Kind) -> Curve<'x, 'e> {
-        Curve::new(self.shooter.clone(), kind, self.limits, self.observer)
+        Curve::new(self.shooter.clone(), kind, self.odd, self.limits, self.observer)
     }
 
     pub(super) fn count(&mut self, curve: &Curve<'_, '_>) {
@@ -97,31 +93,12 @@ impl<'x, 'e> Explorer<'x, 'e> {
 
     /// Whether an orbit, or the same some periods later, or its mirror image, lies on a branch.
     pub(super) fn is_known(&self, curve: &mut Curve<'_, '_>, point: &Point) -> bool {
-        let images = self.images(curve, point);
+        let mut images = curve.images(point);
+        images.push(point.state().to_vec());
         let same: Vec<&ExactBranch> =
             self.branches.iter().filter(|branch| branch.kind == curve.kind).collect();
         same.into_iter()
             .any(|branch| images.iter().any(|state| lies_on(curve, &branch.points, state, point)))
-    }
-
-    /// States at time 0 of the same orbit begun a period of the excitation later, and of its mirror
-    /// images.
-    fn images(&self, curve: &mut Curve<'_, '_>, point: &Point) -> Vec<Vec<f64>> {
-        let mut images = vec![point.state().to_vec()];
-        let periods = curve.kind.periods;
-        let halves = if self.odd && !curve.kind.mirrored { 2 * periods } else { periods };
-        for half in 1..halves {
-            let part = f64::from(half) / f64::from(halves);
-            let Ok(mut state) = curve.shooter.after(point.state(), point.p(), part, |_| {}) else {
-                continue;
-            };
-            let mirror = halves != periods && half % 2 == 1;
-            if mirror {
-                state.iter_mut().for_each(|x| *x = -*x);
-            }
-            images.push(state);
-        }
-        images
     }
 
     pub(super) fn both_ways(
@@ -135,7 +112,7 @@ impl<'x, 'e> Explorer<'x, 'e> {
         let rising = if start.tangent_p < 0.0 { -1.0 } else { 1.0 };
         if start.p() > low {
             let (back, end) = curve.follow(start, -rising);
-            let (back, end) = self.until_joined(curve, back, end);
+            let (back, end) = self.joined(curve, back, end);
             ends[0] = end;
             points = back;
             if end == BranchEnd::Closed {
@@ -147,7 +124,7 @@ impl<'x, 'e> Explorer<'x, 'e> {
         }
         if ends[1] != BranchEnd::Closed && start.p() < high {
             let (ahead, end) = curve.follow(start, rising);
-            let (ahead, end) = self.until_joined(curve, ahead, end);
+            let (ahead, end) = self.joined(curve, ahead, end);
             ends[1] = end;
             points.truncate(points.len().saturating_sub(1));
             points.extend(ahead);
@@ -203,38 +180,15 @@ fn is_shorter(curve: &mut Curve<'_, '_>, point: &Point) -> bool {
     })
 }
 
-/// Whether a state at the parameter of a point lies on a branch: nearest places are corrected, each in
-/// the plane across the branch in which the state lies.
+/// Whether a state at the parameter of a point lies on a branch.
 pub(super) fn lies_on(
     curve: &mut Curve<'_, '_>,
     points: &[Point],
     state: &[f64],
     like: &Point,
 ) -> bool {
-    let metric = curve.metric(like.size);
-    points.windows(2).any(|pair| {
-        let (chord, chord_p, reach) = metric.step(&pair[0], &pair[1]);
-        if reach == 0.0 {
-            return false;
-        }
-        let d: Vec<f64> = state.iter().zip(pair[0].state()).map(|(x, a)| x - a).collect();
-        let d_p = like.p() - pair[0].p();
-        let part = metric.dot((&d, d_p), (&chord, chord_p)) / (reach * reach);
-        if !(-0.05..=1.05).contains(&part) {
-            return false;
-        }
-        let off: Vec<f64> = d.iter().zip(&chord).map(|(d, c)| d - part * c).collect();
-        if metric.norm(&off, d_p - part * chord_p) > REACH {
-            return false;
-        }
-        // The plane of the pair's own metric.
-        let own = curve.metric(pair[0].size);
-        let length = own.norm(&chord, chord_p);
-        let part = own.dot((&d, d_p), (&chord, chord_p)) / (length * length);
-        let Ok(orbit) = curve.between(&pair[0], &pair[1], part) else { return false };
-        let away: Vec<f64> = orbit.state.iter().zip(state).map(|(a, b)| a - b).collect();
-        metric.norm(&away, orbit.frequency - like.p()) < SAME
-    })
+    let place = (state, like.p());
+    points.windows(2).any(|pair| curve.passes(&pair[0], &pair[1], place, like.size))
 }
 
 impl From<ExactBranch> for TracedBranch {

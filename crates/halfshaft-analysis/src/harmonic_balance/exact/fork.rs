@@ -17,8 +17,6 @@ const OFFSETS: [f64; 5] = [1e-2, 3e-3, 3e-2, 1e-3, 1e-4];
 /// Inverse iterations for a null vector, and the shift that keeps the matrix regular.
 const ITERATIONS: usize = 5;
 const SHIFT: f64 = 1e-9;
-/// An own part below this of the swing is none.
-const VANISHED: f64 = 1e-6;
 /// Points nearer than this, relative, are the same.
 const SAME_POINT: f64 = 1e-4;
 
@@ -44,7 +42,6 @@ impl Parting {
 
 /// A point where a branch branches off.
 struct Fork {
-    parting: Parting,
     kind: Kind,
     /// The old orbit as one of the new branch, with the direction of that.
     point: Point,
@@ -104,7 +101,7 @@ impl Explorer<'_, '_> {
             self.both_ways(&mut curve, &start, origin)
         } else {
             let (points, end) = curve.follow(&start, 1.0);
-            let (mut points, end) = self.until_rejoined(&mut curve, points, end, &fork);
+            let (mut points, end) = self.joined(&mut curve, points, end);
             points.insert(0, fork.point.clone());
             // The fork itself is no special point of the new branch.
             let last = points.len() - usize::from(end == BranchEnd::Enough);
@@ -156,7 +153,7 @@ impl Explorer<'_, '_> {
         let scale = 1.0 / metric.norm(&tangent, tangent_p);
         (0..n).for_each(|k| tangent[k] *= scale);
         let point = Point { orbit, tangent, tangent_p: scale * tangent_p, ..special.point.clone() };
-        Ok(Fork { parting, kind, point })
+        Ok(Fork { kind, point })
     }
 
     /// Whether a known branch begins or ends at a fork.
@@ -169,40 +166,21 @@ impl Explorer<'_, '_> {
         })
     }
 
-    /// Cuts a branch where it comes back to the one that it branched off, and ends it there.
-    fn until_rejoined(
+    /// Ends a branch that came back to another at the point where they meet, as far as that is known.
+    pub(super) fn joined(
         &self,
         curve: &mut Curve<'_, '_>,
-        points: Vec<Point>,
-        end: BranchEnd,
-        fork: &Fork,
-    ) -> (Vec<Point>, BranchEnd) {
-        let Some(at) = rejoining(curve, &points, fork.parting) else { return (points, end) };
-        let last = self.meeting(&points[at - 1], &points[at], fork.kind, fork.parting);
-        let mut kept = points;
-        kept.truncate(at);
-        kept.extend(last);
-        (kept, BranchEnd::Enough)
-    }
-
-    /// The same for a branch that was followed from a seed: of several periods or of broken symmetry.
-    pub(super) fn until_joined(
-        &self,
-        curve: &mut Curve<'_, '_>,
-        points: Vec<Point>,
+        mut points: Vec<Point>,
         end: BranchEnd,
     ) -> (Vec<Point>, BranchEnd) {
-        let parting = match (curve.kind.periods, self.odd && !curve.kind.mirrored) {
-            (1, true) => Parting::Mirror,
-            (periods, _) if periods.is_multiple_of(2) => Parting::Doubling,
-            _ => return (points, end),
-        };
-        let Some(at) = rejoining(curve, &points, parting) else { return (points, end) };
-        let last = self.meeting(&points[at - 1], &points[at], curve.kind, parting);
-        let mut kept = points;
-        kept.truncate(at);
-        kept.extend(last);
-        (kept, BranchEnd::Enough)
+        let beyond = curve.beyond.take();
+        let (Some(last), Some(beyond)) = (points.last(), beyond) else { return (points, end) };
+        let parting = if curve.kind.periods == 1 { Parting::Mirror } else { Parting::Doubling };
+        let meeting = self.meeting(last, &beyond, curve.kind, parting);
+        // Where laws bend hard branches also meet where an orbit begins to touch.
+        let end = if meeting.is_none() && curve.grazes(last) { BranchEnd::Grazing } else { end };
+        points.extend(meeting);
+        (points, end)
     }
 
     /// The fork at which a branch comes back between two points.
@@ -211,7 +189,7 @@ impl Explorer<'_, '_> {
         let reach = metric.step(a, b).2;
         let forks = self.branches.iter().flat_map(|branch| {
             branch.specials.iter().filter(|special| special.located).filter_map(move |special| {
-                (parts(branch, special) == Some(parting)).then_some((branch, special))
+                meets(branch, special, parting).then_some((branch, special))
             })
         });
         let near = forks.map(|(branch, special)| {
@@ -244,23 +222,12 @@ fn parts(branch: &ExactBranch, special: &ExactSpecial) -> Option<Parting> {
     }
 }
 
-/// The first point of a branch whose own part has passed through nothing since the point before.
-fn rejoining(curve: &mut Curve<'_, '_>, points: &[Point], parting: Parting) -> Option<usize> {
-    let mut before: Option<Vec<f64>> = None;
-    for (at, point) in points.iter().enumerate() {
-        let own = own_part(curve, point, parting).ok()?;
-        if at > 0 && length(&own) < VANISHED * point.size {
-            return Some(at);
-        }
-        if let Some(known) = before.replace(own.clone()) {
-            let dot: f64 = own.iter().zip(&known).map(|(a, b)| a * b).sum();
-            let size = 0.5 * point.size;
-            if dot < 0.0 && length(&known) < size && length(&own) < size {
-                return Some(at);
-            }
-        }
+/// Whether a branch that parts in a way may come back to a special point of another.
+fn meets(branch: &ExactBranch, special: &ExactSpecial, parting: Parting) -> bool {
+    match parting {
+        Parting::Doubling => special.kind == SpecialKind::PeriodDoubling && !branch.kind.mirrored,
+        _ => parts(branch, special) == Some(parting),
     }
-    None
 }
 
 /// `matrix + shift I`.
@@ -306,11 +273,4 @@ fn first(curve: &mut Curve<'_, '_>, fork: &Fork) -> Result<Point, Lost> {
         }
     }
     Err(why)
-}
-
-/// The part of a state that the old branch lacks.
-fn own_part(curve: &mut Curve<'_, '_>, point: &Point, parting: Parting) -> Result<Vec<f64>, Lost> {
-    let sign = if parting == Parting::Mirror { 1.0 } else { -1.0 };
-    let after = curve.shooter.after(point.state(), point.p(), 0.5, |_| {})?;
-    Ok(point.state().iter().zip(&after).map(|(x, y)| x + sign * y).collect())
 }

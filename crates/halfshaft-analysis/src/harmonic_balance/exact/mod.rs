@@ -9,6 +9,7 @@
 //! | file | task |
 //! |---|---|
 //! | `point` | an orbit on a branch, the metric, directions |
+//! | `closing` | whether a branch has come back |
 //! | `curve` | pseudo-arclength continuation |
 //! | `special`, `touch` | special points between two orbits |
 //! | `explorer` | seeds followed, told apart, joined |
@@ -19,6 +20,7 @@
 //! | `answer` | all of it |
 
 mod answer;
+mod closing;
 mod curve;
 mod explorer;
 mod fork;

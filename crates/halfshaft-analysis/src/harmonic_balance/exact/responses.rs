@@ -2,8 +2,10 @@
 
 use halfshaft_numerics::harmonics::HarmonicSet;
 
+use super::super::alternating::combine;
 use super::super::answer::Setting;
 use super::super::branches::TracedBranch;
+use super::super::line::Line;
 use super::super::orbits::coefficients_of;
 use super::super::special::Special;
 use super::super::tracer::{LEAST_HARMONICS, Sample, length, refit};
@@ -13,6 +15,8 @@ use super::point::Point;
 
 /// Highest orders that are tried, one after the other.
 pub(super) const ORDERS: [usize; 4] = [64, 200, 600, 1200];
+/// Part of the tolerance that special points are told to.
+const SPECIAL: f64 = 0.05;
 /// Orders of sets: few different ones.
 const RUNGS: [usize; 16] = [3, 5, 9, 15, 25, 39, 59, 89, 129, 199, 299, 399, 599, 799, 999, 1199];
 
@@ -31,11 +35,16 @@ impl Responses<'_> {
     ) -> TracedBranch {
         let mut samples = Vec::with_capacity(branch.points.len());
         for point in &branch.points {
-            samples.extend(self.sample(curve, point, exhausted));
+            samples.extend(self.sample(curve, point, self.tolerance, exhausted));
         }
+        // What is said of special points has more digits.
+        let fine = SPECIAL * self.tolerance;
+        let mut beyond = false;
         let mut specials = Vec::new();
         for special in &branch.specials {
-            let Some(sample) = self.sample(curve, &special.point, exhausted) else { continue };
+            let Some(sample) = self.sample(curve, &special.point, fine, &mut beyond) else {
+                continue;
+            };
             specials.push(Special {
                 kind: special.kind,
                 after: special.after,
@@ -56,6 +65,7 @@ impl Responses<'_> {
         &self,
         curve: &mut Curve<'_, '_>,
         point: &Point,
+        tolerance: f64,
         exhausted: &mut bool,
     ) -> Option<Sample> {
         let line = &self.setting.line;
@@ -68,8 +78,8 @@ impl Responses<'_> {
         for most in ORDERS {
             let set = of(most.max(least));
             let u = coefficients_of(line, base, &mut curve.shooter, &point.orbit, &set).ok()?;
-            let tails = tails(&set, &u);
-            let enough = tails.iter().position(|tail| *tail < self.tolerance);
+            let tails = tails(line, &set, &u);
+            let enough = tails.iter().position(|tail| *tail < tolerance);
             let enough = enough.unwrap_or(most);
             known = Some((set, u, tails, enough));
             // Beyond two thirds of the orders the tail is not all seen.
@@ -95,31 +105,60 @@ impl Responses<'_> {
     }
 }
 
-/// What the orders above each order leave of the vibration, relative, for the node where it is most.
-fn tails(set: &HarmonicSet, u: &[f64]) -> Vec<f64> {
+/// What the orders above each order leave of the vibration at most, relative, for the node or the
+/// nonlinear twist where it is most: moduli add up where a law bends.
+fn tails(line: &Line, set: &HarmonicSet, u: &[f64]) -> Vec<f64> {
     let m = set.coefficients();
-    let mean = usize::from(!set.is_odd());
     let mut tails = vec![0.0_f64; set.highest() + 1];
     for node in u.chunks_exact(m) {
-        let whole = length(&node[mean..]);
-        if whole == 0.0 {
-            continue;
-        }
-        let mut sum = 0.0_f64;
-        let mut above = set.highest() + 1;
-        for (order, place) in set.places().collect::<Vec<_>>().into_iter().rev() {
-            // The tail beyond `order`, and beyond those left out between it and the next.
-            for tail in &mut tails[order..above] {
-                *tail = tail.max(sum.sqrt() / whole);
-            }
-            above = order;
-            if order > 0 {
-                sum += node[place] * node[place] + node[place + 1] * node[place + 1];
-            }
-        }
-        for tail in &mut tails[..above] {
-            *tail = tail.max(sum.sqrt() / whole);
-        }
+        add_tails(set, node, &mut tails);
+    }
+    let mut twist = vec![0.0; m];
+    for connection in &line.twists {
+        combine(connection, u, m, &mut twist);
+        add_tails(set, &twist, &mut tails);
     }
     tails
+}
+
+/// Raises the tails to those of one series.
+fn add_tails(set: &HarmonicSet, series: &[f64], tails: &mut [f64]) {
+    let whole = length(&series[usize::from(!set.is_odd())..]);
+    if whole == 0.0 {
+        return;
+    }
+    let mut sum = 0.0_f64;
+    let mut above = tails.len();
+    for (order, place) in set.places().collect::<Vec<_>>().into_iter().rev() {
+        // The tail beyond `order`, and beyond those left out between it and the next.
+        for tail in &mut tails[order..above] {
+            *tail = tail.max(sum / whole);
+        }
+        above = order;
+        if order > 0 {
+            sum += series[place].hypot(series[place + 1]);
+        }
+    }
+    for tail in &mut tails[..above] {
+        *tail = tail.max(sum / whole);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Source: sums by hand. Orders 1 to 3 of modulus 4, 3 and 0.5 leave 3.5, 0.5 and nothing, over the
+    // length of all.
+    #[test]
+    fn tails_are_the_sums_beyond() {
+        let set = HarmonicSet::all(3);
+        let series = [7.0, 4.0, 0.0, 0.0, 3.0, 0.3, 0.4];
+        let mut tails = vec![0.0; 4];
+        add_tails(&set, &series, &mut tails);
+        let whole = 25.25_f64.sqrt();
+        for (tail, exact) in tails.iter().zip([7.5, 3.5, 0.5, 0.0]) {
+            assert!((tail - exact / whole).abs() < 1e-15);
+        }
+    }
 }

@@ -123,7 +123,7 @@ pub(super) fn settled(
         if let Some(back) = back {
             let periods = u32::try_from(back).ok()?;
             let kind = Kind { base: kind.base / f64::from(periods), periods, mirrored: false };
-            let origin = format!("the motion that the line settles to at {p:.6} rad/s");
+            let origin = format!("motion to which the line settles at {p:.6} rad/s");
             return Some(Guess { kind, state: last.clone(), p, origin });
         }
     }
