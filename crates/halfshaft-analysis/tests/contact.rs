@@ -88,6 +88,33 @@ fn found<'r>(points: &[&'r SpecialPoint], frequency: f64, relative: f64) -> &'r 
     found[0]
 }
 
+/// An inertia on a spring with a stop whose damper acts in contact only: torque jumps there.
+const JUMPING: &str = r#"
+format = 1
+name = "Damped stop"
+[[inertia]]
+name = "n1"
+inertia = 1
+[[shaft]]
+name = "spring"
+from = "n1"
+to = "ground"
+stiffness = 1
+damping = 0.1
+[[shaft]]
+name = "stop"
+from = "n1"
+to = "ground"
+contact = "1 rad"
+stiffness = 20
+damping = 1.5
+damping_acts = "in contact"
+[[torque]]
+name = "drive"
+on = "n1"
+amplitude = 0.3
+"#;
+
 /// Every verified sample agrees with the motion itself.
 fn hold_against_the_motion(result: &ResonanceResult, tolerance: f64) {
     assert!(result.verification.len() > 8);
@@ -127,6 +154,96 @@ fn one_sided_contact_has_its_reference_points() {
     let note = point.note.as_deref().expect("says what touches");
     assert_eq!(note, "the twist of `stop` touches 1 rad from below");
     hold_against_the_motion(&result, 1e-6);
+    // The branch of twice the period goes from the one period doubling to the other.
+    let doubled: Vec<_> = result.branches.iter().filter(|branch| branch.periods == 2).collect();
+    assert_eq!(doubled.len(), 1);
+    let speeds = doubled[0].values("frequency");
+    let mut ends = [speeds[0], speeds[speeds.len() - 1]];
+    ends.sort_by(f64::total_cmp);
+    assert_close(ends[0], 0.738_783_025_4, 1e-10);
+    assert_close(ends[1], 0.755_586_159_4, 1e-10);
+}
+
+/// Amplitudes of all responses of some periods at a speed, by the samples on both sides.
+fn amplitudes_at(result: &ResonanceResult, periods: u32, speed: f64) -> Vec<f64> {
+    let mut found = Vec::new();
+    for branch in result.branches.iter().filter(|branch| branch.periods == periods) {
+        let speeds = branch.values("frequency");
+        let values = branch.values("coupling.twist.amplitude");
+        for k in 1..speeds.len() {
+            let (a, b) = (speeds[k - 1], speeds[k]);
+            if (a - speed) * (b - speed) <= 0.0 && a != b {
+                let part = (speed - a) / (b - a);
+                found.push(values[k - 1] + part * (values[k] - values[k - 1]));
+            }
+        }
+    }
+    found
+}
+
+// Source: the same line asked over the wide range, held against the reference above; no narrow one
+// contains the start of the branch in contact.
+#[test]
+fn narrow_windows_have_all_that_wide_ones_have() {
+    let ask = |range: &str| {
+        let question = QuestionText {
+            method: some("harmonic-balance"),
+            frequency: some(range),
+            ..QuestionText::default()
+        };
+        resonance(&line_of(ONE_SIDED, &[]), &question)
+    };
+    let wide = ask("0.55..0.8");
+    for (low, high) in [(0.6, 0.62), (0.655, 0.66), (0.7, 0.71), (0.735, 0.742), (0.7553, 0.7558)] {
+        let narrow = ask(&format!("{low}..{high}"));
+        for part in [0.1, 0.45, 0.9] {
+            let speed = low + part * (high - low);
+            for periods in [1, 2] {
+                let known = amplitudes_at(&narrow, periods, speed);
+                for amplitude in amplitudes_at(&wide, periods, speed) {
+                    let near = |value: &f64| (value / amplitude - 1.0).abs() < 5e-3;
+                    assert!(
+                        known.iter().any(near),
+                        "{low}..{high}: {amplitude} every {periods} at {speed} is not in {known:?}"
+                    );
+                }
+            }
+        }
+        for kind in [SpecialKind::Fold, SpecialKind::PeriodDoubling, SpecialKind::NeimarkSacker] {
+            for periods in [1, 2] {
+                for point in kinds(&wide, periods, kind) {
+                    let speed = point.value("frequency").expect("has one");
+                    if speed > low && speed < high {
+                        found(&kinds(&narrow, periods, kind), speed, 1e-9);
+                    }
+                }
+            }
+        }
+    }
+}
+
+// Source: before it touches the line is linear: |0.3 / (1 - Ω² + 0.1 i Ω)| = 1. Then the mean torque of
+// the stop holds that of the spring, and orbits by Taylor series know nothing of harmonics.
+#[test]
+fn a_stop_whose_damper_acts_in_contact_only() {
+    let result = asked(JUMPING, &[], "0.4..2.5");
+    hold_against_the_motion(&result, 1e-6);
+    let grazing = kinds(&result, 1, SpecialKind::GrazingContact);
+    let root = (1.99_f64.powi(2) - 4.0 * 0.91).sqrt();
+    for square in [0.5 * (1.99 - root), 0.5 * (1.99 + root)] {
+        found(&grazing, square.sqrt(), 1e-10);
+    }
+    assert_eq!(grazing.len(), 2);
+    for branch in result.branches.iter().filter(|branch| branch.periods == 1) {
+        let spring = branch.values("spring.torque.mean");
+        let stop = branch.values("stop.torque.mean");
+        let size = branch.values("stop.torque.amplitude");
+        let touching = (0..size.len()).filter(|k| size[*k] > 0.0);
+        assert!(touching.clone().count() > 20);
+        for k in touching {
+            assert!((spring[k] + stop[k]).abs() < 2e-6 * size[k], "{k}: {} {}", spring[k], stop[k]);
+        }
+    }
 }
 
 // Source: orbits by Taylor series from contact to contact, which know nothing of harmonics.

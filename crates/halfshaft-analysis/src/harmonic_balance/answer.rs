@@ -52,6 +52,16 @@ impl Setting {
         frequency: Option<(f64, f64)>,
         mode: usize,
     ) -> Result<Self, AnalysisError> {
+        refuse(&equations)?;
+        Self::of_any(equations, frequency, mode)
+    }
+
+    /// The same, also where torques jump: for shooting alone.
+    pub(super) fn of_any(
+        equations: Rc<EquationsOfMotion>,
+        frequency: Option<(f64, f64)>,
+        mode: usize,
+    ) -> Result<Self, AnalysisError> {
         let orders = equations.excitation.orders();
         if orders.is_empty() {
             let reason = "no torque has an amplitude".to_owned();
@@ -63,7 +73,6 @@ impl Setting {
                 reason: "the orders of the torques have no common period".to_owned(),
             });
         };
-        refuse(&equations)?;
         let states = equilibrium::find_stable(&equations)?;
         let none = vec![0.0; equations.connections.len()];
         let rest = states.primary().map_or(none, |state| state.twists.clone());
@@ -136,16 +145,18 @@ impl Setting {
     }
 }
 
-/// Refuses what the method cannot represent, by name: a damper that acts in contact only makes the
-/// torque jump where the contact opens.
+/// Refuses what harmonics cannot represent, by name: a damper that acts in contact only makes the
+/// torque jump where the contact opens. Shooting follows such lines.
 fn refuse(equations: &EquationsOfMotion) -> Result<(), AnalysisError> {
     let jumps = |c: &&halfshaft_dynamics::Connection| !c.damps_in_gap && c.damping != 0.0;
     match equations.connections.iter().find(jumps) {
         Some(connection) if !connection.law.is_linear() => Err(AnalysisError::MethodDoesNotFit {
             method: "harmonic-balance",
             reason: format!(
-                "the damper of {} acts in contact only, so its torque jumps where the contact opens; \
-                 take damping_acts = \"always\", or --method first-harmonic",
+                "the damper of {} acts in contact only, so its torque jumps where the contact opens: \
+                 such a line is followed over the speed only, with the number of harmonics left open, \
+                 and where it has few inertias; take damping_acts = \"always\", or \
+                 --method first-harmonic",
                 connection.name
             ),
         }),
@@ -160,12 +171,62 @@ pub(crate) fn solve(
     observer: &dyn Observer,
 ) -> Result<ResonanceResult, AnalysisError> {
     let equations = Rc::new(EquationsOfMotion::new(line)?);
-    let setting = Setting::new(Rc::clone(&equations), question.frequency, question.mode)?;
+    let setting = Setting::of_any(Rc::clone(&equations), question.frequency, question.mode)?;
     if let Some(range) = &question.parameter {
+        refuse(&equations)?;
         return super::parameter_answer::solve(line, question, range, &setting, observer);
     }
-    let settings = trace_settings(&setting, question);
+    let collected = match super::exact::collect(&setting, question, observer) {
+        Some(collected) => collected,
+        None => {
+            refuse(&equations)?;
+            by_harmonics(&setting, question, observer)
+        }
+    };
+    let header = header(line, &Question::Resonance(question.clone()));
+    let mut measured = Measured::new(&setting, None);
+    let mut result = assemble(&setting, &collected, &mut measured, header);
+    result.jumps = jumps(&setting, &collected.branches);
+    messages(&setting, question, &collected, &mut result);
+    if question.backbone {
+        refuse(&equations)?;
+        result.backbones = drawn_backbones(&setting, &equations, question, &collected, observer)?;
+    }
+    if question.verify {
+        super::verify::verify(&setting, &collected, &mut result, observer)?;
+    }
+    Ok(result)
+}
+
+/// Curves of phase resonance up to somewhat beyond the branches.
+fn drawn_backbones(
+    setting: &Setting,
+    equations: &EquationsOfMotion,
+    question: &ResonanceQuestion,
+    collected: &Collected,
+    observer: &dyn Observer,
+) -> Result<Vec<halfshaft_results::Table>, AnalysisError> {
+    let largest = collected.branches.iter().flat_map(|branch| &branch.samples);
+    let largest = largest.map(|sample| length(&sample.u)).fold(0.0, f64::max);
+    let settings = BackboneSettings {
+        frequency: setting.range,
+        tolerance: question.tolerance,
+        harmonics: question.harmonics,
+        most_drive: 3.0,
+        most_size: 1.5 * largest,
+    };
+    let states = equilibrium::find_stable(equations)?;
+    backbones(setting, &states, &settings, observer)
+}
+
+/// All branches with harmonics as unknowns.
+fn by_harmonics(
+    setting: &Setting,
+    question: &ResonanceQuestion,
+    observer: &dyn Observer,
+) -> Collected {
     let mut counted = Counted::default();
+    let settings = trace_settings(setting, question);
     let seeds = setting.seeds(question.harmonics, observer, &mut counted);
     let job = Job {
         line: &setting.line,
@@ -180,28 +241,7 @@ pub(crate) fn solve(
     };
     let mut collected = job.collect(&seeds);
     collected.counted.add(counted);
-    let header = header(line, &Question::Resonance(question.clone()));
-    let mut measured = Measured::new(&setting, None);
-    let mut result = assemble(&setting, &collected, &mut measured, header);
-    result.jumps = jumps(&setting, &collected.branches);
-    messages(&setting, question, &collected, &mut result);
-    if question.backbone {
-        let largest = collected.branches.iter().flat_map(|branch| &branch.samples);
-        let largest = largest.map(|sample| length(&sample.u)).fold(0.0, f64::max);
-        let settings = BackboneSettings {
-            frequency: setting.range,
-            tolerance: question.tolerance,
-            harmonics: question.harmonics,
-            most_drive: 3.0,
-            most_size: 1.5 * largest,
-        };
-        let states = equilibrium::find_stable(&equations)?;
-        result.backbones = backbones(&setting, &states, &settings, observer)?;
-    }
-    if question.verify {
-        super::verify::verify(&setting, &collected, &mut result, observer)?;
-    }
-    Ok(result)
+    collected
 }
 
 /// Settings of the continuation that a question asks for.
@@ -405,6 +445,8 @@ fn described(branch: &TracedBranch) -> String {
         BranchEnd::StepTooSmall => "where no step was small enough to go on",
         BranchEnd::SampleLimit => "after as many samples as allowed",
         BranchEnd::Unbounded => "where the response grows beyond all measure",
+        BranchEnd::Chattering => "where a contact closes and opens too often to be followed",
+        BranchEnd::Grazing => "where a twist grazes a break of its law",
         BranchEnd::Cancelled => "where it was stopped",
         BranchEnd::Enough => "where it meets another branch",
     };

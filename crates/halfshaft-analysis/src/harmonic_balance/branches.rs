@@ -40,6 +40,8 @@ pub(crate) struct Collected {
     pub(crate) exhausted: bool,
     pub(crate) cancelled: bool,
     pub(crate) messages: Vec<String>,
+    /// Whether branches are exact orbits.
+    pub(crate) exact: bool,
 }
 
 /// What is being traced and how.
@@ -80,6 +82,7 @@ impl<'j, 'f> Job<'j, 'f> {
             exhausted: false,
             cancelled: false,
             messages: Vec::new(),
+            exact: false,
         };
         let Some((first, _, _)) = seeds.first() else { return all };
         let mut tracer = self.tracer(first.set.clone(), self.base);

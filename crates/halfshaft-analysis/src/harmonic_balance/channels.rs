@@ -6,6 +6,8 @@ use halfshaft_numerics::harmonics::{HarmonicSet, Sampler};
 use halfshaft_results::Named;
 
 use super::alternating::differentiate;
+use super::breaks::breaks;
+use super::switching::phases;
 use super::system::{HarmonicSystem, Place};
 
 /// Mean, modulus of the first harmonic, half of peak to peak and both peaks of one channel.
@@ -184,10 +186,9 @@ impl Channels {
         }
         self.sampler.samples(&self.set, twist, &mut self.samples);
         self.sampler.samples(&self.set, rate, &mut self.rates);
-        let of = |x: f64, v: f64| {
-            let friction = connection.friction.as_ref().map_or(0.0, |friction| friction.torque(v));
-            connection.law.torque(x) + connection.damping * v + friction
-        };
+        let phases = phases(&connection.law.pieces(), &self.set, twist, &self.samples);
+        let breaks = breaks(connection, &self.set, (twist, rate), &phases);
+        let of = |x: f64, v: f64| connection.law.torque(x) + connection.resistance(x, v);
         for (x, v) in self.samples.iter_mut().zip(&self.rates) {
             *x = of(*x, *v);
         }
@@ -211,6 +212,11 @@ impl Channels {
                 };
                 climb(&at, near)
             });
+            for torque in breaks.iter().flat_map(|one| one.torque) {
+                if sign * torque > sign * *end {
+                    *end = torque;
+                }
+            }
         }
         if both == 1 {
             ends[1] = -ends[0];
@@ -220,6 +226,10 @@ impl Channels {
         for (torque, turn) in self.samples.iter().zip(&self.turns) {
             mean += torque;
             sum = sum + turn.scaled(*torque);
+        }
+        for one in &breaks {
+            mean += one.missed(spacing, 0.0).re / spacing;
+            sum = sum + one.missed(spacing, self.first as f64).scaled(1.0 / spacing);
         }
         let scale = 1.0 / count as f64;
         ChannelValue {

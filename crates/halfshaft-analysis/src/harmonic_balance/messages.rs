@@ -29,8 +29,21 @@ pub(super) fn messages(
                 BranchEnd::StepTooSmall => "no step was small enough to go on",
                 BranchEnd::SampleLimit => "as many samples as allowed were taken",
                 BranchEnd::Unbounded => "the response grows beyond all measure",
+                BranchEnd::Chattering => {
+                    "a contact closes and opens too often within a period to be followed"
+                }
+                BranchEnd::Grazing => {
+                    "a twist grazes a break of its law and no response was found beyond"
+                }
                 _ => return,
             };
+            if all.exact {
+                header.warnings.push(format!(
+                    "the branch from the {} stops at {:.6} rad/s: {why}",
+                    branch.origin, sample.p
+                ));
+                return;
+            }
             header.warnings.push(format!(
                 "the branch from the {} stops at {:.6} rad/s: {why}; try --tolerance {:.0e} or a \
                  narrower range",
@@ -56,6 +69,13 @@ pub(super) fn messages(
             super::tracer::MOST_HARMONICS,
             question.tolerance
         ));
+    }
+    if all.exact {
+        header.assumptions.push(
+            "laws with kinks: branches are orbits of the full motion by shooting from kink to kink, \
+             harmonics are taken from them"
+                .to_owned(),
+        );
     }
     if let Some(harmonics) = question.harmonics {
         header.assumptions.push(format!("{harmonics} harmonics, as asked"));

@@ -10,11 +10,12 @@
 //! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
+//! | `exact` | branches of lines with kinks, by shooting |
 //! | `seeds`, `tips`, `branches`, `branching` | all branches, detached ones and those that branch off included |
 //! | `lines`, `fold_system`, `fold_points`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
-//! | `channels`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
+//! | `channels`, `breaks`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
 //! | `layers` | single layers, for benches |
 
 mod alternating;
@@ -22,9 +23,11 @@ mod answer;
 mod backbone;
 mod branches;
 mod branching;
+mod breaks;
 mod channels;
 mod closing;
 mod condensed;
+mod exact;
 mod fold_answer;
 mod fold_points;
 mod fold_system;

@@ -17,14 +17,26 @@ pub(super) fn state_of(
     sample: &Sample,
     coordinates: &Coordinates,
 ) -> Vec<f64> {
-    let mut system = HarmonicSystem::new(line.clone(), sample.set.clone(), base);
-    let place = Place { frequency: sample.p, drive: 1.0 };
-    let series = group_series(&mut system, &sample.u, place);
-    let speed = base * sample.p;
-    let m = sample.set.coefficients();
+    state_of_series(line, base, &sample.set, &sample.u, sample.p, coordinates)
+}
+
+/// The same of coefficients over a set at an excitation speed.
+pub(super) fn state_of_series(
+    line: &Line,
+    base: f64,
+    set: &HarmonicSet,
+    u: &[f64],
+    frequency: f64,
+    coordinates: &Coordinates,
+) -> Vec<f64> {
+    let mut system = HarmonicSystem::new(line.clone(), set.clone(), base);
+    let place = Place { frequency, drive: 1.0 };
+    let series = group_series(&mut system, u, place);
+    let speed = base * frequency;
+    let m = set.coefficients();
     let (mut angles, mut speeds) = (Vec::new(), Vec::new());
     for coefficients in series.chunks_exact(m) {
-        let (value, slope) = sample.set.evaluate(coefficients, 0.0);
+        let (value, slope) = set.evaluate(coefficients, 0.0);
         angles.push(value);
         speeds.push(speed * slope);
     }

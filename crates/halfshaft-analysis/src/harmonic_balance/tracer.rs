@@ -46,6 +46,10 @@ pub(crate) enum BranchEnd {
     SampleLimit,
     /// The response grew beyond all measure.
     Unbounded,
+    /// Where a contact closes and opens too often to be followed.
+    Chattering,
+    /// Where a twist grazes a break of its law and no orbit was found beyond.
+    Grazing,
     /// The user stopped it.
     Cancelled,
     /// The value that was looked for has been met often enough.

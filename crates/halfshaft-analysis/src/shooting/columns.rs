@@ -8,7 +8,7 @@ use super::coordinates::Coordinates;
 use super::motion::{Motion, reach};
 use super::series::{DEGREE, Series, ZERO};
 
-/// One column for each coordinate of the state and one for the excitation speed.
+/// One column for each coordinate of the state and one for the excitation speed (or the drive).
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
     count: usize,
@@ -20,6 +20,8 @@ pub(super) struct Columns {
     net: Vec<f64>,
     torque: Vec<f64>,
     loads: Vec<Series>,
+    /// Whether the last column is that of the drive in place of the excitation speed.
+    pub(super) by_drive: bool,
 }
 
 impl Columns {
@@ -31,6 +33,7 @@ impl Columns {
             net: vec![0.0; groups * count],
             torque: vec![0.0; count],
             loads: vec![ZERO; groups],
+            by_drive: false,
             count,
             groups,
         }
@@ -56,7 +59,11 @@ impl Columns {
     /// All powers from the first two along a motion that is expanded.
     pub(super) fn expand(&mut self, motion: &Motion<'_>, t: f64, frequency: f64) {
         let n = self.count;
-        motion.loads_by_frequency(t, frequency, &mut self.loads);
+        if self.by_drive {
+            motion.loads_by_drive(t, frequency, &mut self.loads);
+        } else {
+            motion.loads_by_frequency(t, frequency, &mut self.loads);
+        }
         let tangents: Vec<[(Series, usize); 2]> = (motion.equations.connections.iter())
             .zip(motion.acting.iter().zip(&motion.twists))
             .map(|(connection, (acting, twist))| {
@@ -114,13 +121,21 @@ impl Columns {
         let n = self.count;
         let from = (index * (DEGREE + 1) + power) * n;
         let out = &mut self.twists[from..from + n];
-        out.fill(0.0);
         let connection = &equations.connections[index];
+        let mut fresh = true;
         for (end, sign) in [(connection.from, 1.0), (connection.to, -1.0)] {
-            if let Some((group, ratio)) = end {
-                let at = (power * self.groups + group) * n;
-                axpy(sign * ratio, &self.angles[at..at + n], out);
+            let Some((group, ratio)) = end else { continue };
+            let at = (power * self.groups + group) * n;
+            let (factor, angles) = (sign * ratio, &self.angles[at..at + n]);
+            if fresh {
+                out.iter_mut().zip(angles).for_each(|(y, x)| *y = factor * x);
+            } else {
+                axpy(factor, angles, out);
             }
+            fresh = false;
+        }
+        if fresh {
+            out.fill(0.0);
         }
     }
 

@@ -30,6 +30,11 @@ impl Coordinates {
         2 * self.twists + usize::from(self.with_speed)
     }
 
+    /// Multiplies all rates of a state.
+    pub(crate) fn scale_rates(&self, state: &mut [f64], factor: f64) {
+        state[self.twists..].iter_mut().for_each(|v| *v *= factor);
+    }
+
     /// Angles and speeds of the groups, without those of the whole where these are left out.
     pub(crate) fn spread(
         &self,

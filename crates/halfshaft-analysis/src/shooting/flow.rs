@@ -64,6 +64,16 @@ impl<'e> Flow<'e> {
         Self { motion: Motion::new(equations), columns, coordinates }
     }
 
+    /// Sets the factor on all harmonic torques.
+    pub(crate) fn set_drive(&mut self, drive: f64) {
+        self.motion.drive = drive;
+    }
+
+    /// Makes the drive the parameter of the variations, in place of the excitation speed.
+    pub(crate) fn vary_drive(&mut self) {
+        self.columns.by_drive = true;
+    }
+
     pub(crate) fn equations(&self) -> &'e EquationsOfMotion {
         self.motion.equations
     }

@@ -84,6 +84,8 @@ pub(super) struct Motion<'e> {
     pub(super) twists: Vec<Series>,
     loads: Vec<Series>,
     net: Vec<f64>,
+    /// Factor on all harmonic torques.
+    pub(super) drive: f64,
 }
 
 impl<'e> Motion<'e> {
@@ -96,6 +98,7 @@ impl<'e> Motion<'e> {
             twists: vec![ZERO; equations.connections.len()],
             loads: vec![ZERO; groups],
             net: vec![0.0; groups],
+            drive: 1.0,
             equations,
         }
     }
@@ -173,7 +176,7 @@ impl<'e> Motion<'e> {
             for harmonic in &source.harmonics {
                 let speed = harmonic.order * frequency;
                 let (cosine, _) = cosine_and_sine(speed, t, harmonic.phase_rad);
-                let factor = growth * harmonic.amplitude_nm;
+                let factor = self.drive * growth * harmonic.amplitude_nm;
                 let load = &mut self.loads[source.group];
                 load.iter_mut().zip(cosine).for_each(|(load, c)| *load += factor * c);
             }
@@ -192,13 +195,32 @@ impl<'e> Motion<'e> {
             for harmonic in &source.harmonics {
                 let speed = harmonic.order * frequency;
                 let (cosine, sine) = cosine_and_sine(speed, t, harmonic.phase_rad);
-                let turning = -growth * harmonic.amplitude_nm * harmonic.order;
-                let growing = slope * harmonic.amplitude_nm;
+                let amplitude = self.drive * harmonic.amplitude_nm;
+                let turning = -growth * amplitude * harmonic.order;
+                let growing = slope * amplitude;
                 let out = &mut out[source.group];
                 for power in 0..=DEGREE {
                     let before = if power == 0 { 0.0 } else { sine[power - 1] };
                     out[power] += turning * (t * sine[power] + before) + growing * cosine[power];
                 }
+            }
+        }
+    }
+
+    /// Derivatives of the external torques by the drive, group by group.
+    pub(super) fn loads_by_drive(&self, t: f64, frequency: f64, out: &mut [Series]) {
+        out.fill(ZERO);
+        for source in &self.equations.excitation.sources {
+            if source.own_frequency.is_some() {
+                continue;
+            }
+            let growth = source.ratio * source.growth(frequency);
+            for harmonic in &source.harmonics {
+                let speed = harmonic.order * frequency;
+                let (cosine, _) = cosine_and_sine(speed, t, harmonic.phase_rad);
+                let factor = growth * harmonic.amplitude_nm;
+                let out = &mut out[source.group];
+                out.iter_mut().zip(cosine).for_each(|(load, c)| *load += factor * c);
             }
         }
     }

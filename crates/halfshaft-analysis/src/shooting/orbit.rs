@@ -11,7 +11,7 @@ use super::flow::{Flow, Lost, Step};
 pub(crate) struct Orbit {
     /// State at time 0.
     pub(crate) state: Vec<f64>,
-    /// Excitation speed, rad/s.
+    /// Excitation speed, rad/s; the drive where that runs in its place.
     pub(crate) frequency: f64,
     /// Derivative of the state after the period (or half of it) by that before.
     pub(crate) matrix: Matrix,
@@ -46,8 +46,13 @@ pub(crate) struct Shooter<'e> {
     base: f64,
     /// Whether orbits mirror themselves after half a period: only that half is followed.
     mirrored: bool,
-    /// Excitation speed by which speeds are measured, rad/s.
+    /// Excitation speed by which speeds are measured, rad/s; 1 where the drive runs.
     frequency: f64,
+    /// The excitation speed where the drive runs in its place, rad/s.
+    held: Option<f64>,
+    /// A correction below this, relative, is the last: the state has converged to its square then, the
+    /// derivatives to itself.
+    enough: f64,
 }
 
 /// Iterations at most.
@@ -65,7 +70,37 @@ impl<'e> Shooter<'e> {
         frequency: f64,
         mirrored: bool,
     ) -> Self {
-        Self { flow: Flow::new(equations, base * frequency), base, mirrored, frequency }
+        let flow = Flow::new(equations, base * frequency);
+        Self { flow, base, mirrored, frequency, held: None, enough: 0.0 }
+    }
+
+    /// Orbits at one excitation speed over the drive, the factor on all harmonic torques.
+    pub(crate) fn over_drive(
+        equations: &'e EquationsOfMotion,
+        base: f64,
+        frequency: f64,
+        mirrored: bool,
+    ) -> Self {
+        let mut flow = Flow::new(equations, base * frequency);
+        flow.vary_drive();
+        Self { flow, base, mirrored, frequency: 1.0, held: Some(frequency), enough: 0.0 }
+    }
+
+    /// The same for orbits of another period or symmetry, in the same coordinates.
+    pub(crate) fn of_kind(&self, base: f64, mirrored: bool) -> Self {
+        Self { base, mirrored, ..self.clone() }
+    }
+
+    /// Sets the relative correction that is the last one; 0 for going on to rounding.
+    pub(crate) fn set_enough(&mut self, enough: f64) {
+        self.enough = enough;
+    }
+
+    /// Sets the drive where that runs; gives the excitation speed.
+    fn place(&mut self, parameter: f64) -> f64 {
+        let Some(frequency) = self.held else { return parameter };
+        self.flow.set_drive(parameter);
+        frequency
     }
 
     pub(crate) fn equations(&self) -> &'e EquationsOfMotion {
@@ -83,7 +118,7 @@ impl<'e> Shooter<'e> {
 
     /// Period at an excitation speed, s.
     pub(crate) fn period(&self, frequency: f64) -> f64 {
-        std::f64::consts::TAU / (self.base * frequency)
+        std::f64::consts::TAU / (self.base * self.held.unwrap_or(frequency))
     }
 
     /// -1 where orbits mirror themselves after half a period, else 1.
@@ -98,12 +133,16 @@ impl<'e> Shooter<'e> {
         frequency: f64,
     ) -> Result<(Vec<f64>, Matrix, Vec<f64>), Lost> {
         let end = self.period(frequency) * if self.mirrored { 0.5 } else { 1.0 };
-        let arrived = self.flow.run(state, frequency, end, true, |_| {})?;
+        let speed = self.place(frequency);
+        let arrived = self.flow.run(state, speed, end, true, |_| {})?;
         let Some((matrix, mut by_frequency)) = arrived.variation else {
             return Err(Lost::NotConverged);
         };
         // A higher speed ends the period earlier.
-        let turn = self.flow.coordinates.reference * end / frequency;
+        let turn = match self.held {
+            Some(_) => 0.0,
+            None => self.flow.coordinates.reference * end / frequency,
+        };
         for (slope, rate) in by_frequency.iter_mut().zip(&arrived.rate) {
             *slope = (*slope - turn * rate) * self.frequency;
         }
@@ -144,6 +183,9 @@ impl<'e> Shooter<'e> {
             let shrink = (0.2 / step[n].abs()).min(1.0);
             state.iter_mut().zip(&step).for_each(|(x, s)| *x += shrink * s);
             frequency += shrink * step[n] * self.frequency;
+            if correction <= self.enough {
+                return Ok(Orbit { state, frequency, matrix, by_frequency, residual });
+            }
             before = correction;
         }
         Err(Lost::NotConverged)
@@ -157,7 +199,13 @@ impl<'e> Shooter<'e> {
     }
 
     /// `[M - s I, φ_Ω; row, corner]`.
-    fn bordered(&self, matrix: &Matrix, by_frequency: &[f64], row: &[f64], corner: f64) -> Matrix {
+    pub(crate) fn bordered(
+        &self,
+        matrix: &Matrix,
+        by_frequency: &[f64],
+        row: &[f64],
+        corner: f64,
+    ) -> Matrix {
         let n = row.len();
         let sign = self.sign();
         Matrix::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
@@ -199,8 +247,22 @@ impl<'e> Shooter<'e> {
     /// Follows an orbit through its whole period.
     pub(crate) fn watch(&mut self, orbit: &Orbit, see: impl FnMut(&Step<'_>)) -> Result<(), Lost> {
         let end = self.period(orbit.frequency);
-        self.flow.run(&orbit.state, orbit.frequency, end, false, see)?;
+        let speed = self.place(orbit.frequency);
+        self.flow.run(&orbit.state, speed, end, false, see)?;
         Ok(())
+    }
+
+    /// The state after a part of the period.
+    pub(crate) fn after(
+        &mut self,
+        state: &[f64],
+        frequency: f64,
+        part: f64,
+        see: impl FnMut(&Step<'_>),
+    ) -> Result<Vec<f64>, Lost> {
+        let end = part * self.period(frequency);
+        let speed = self.place(frequency);
+        Ok(self.flow.run(state, speed, end, false, see)?.state)
     }
 }
 

@@ -95,3 +95,45 @@ impl Sampled {
         }
     }
 }
+
+/// The swing of twists and rates over an orbit: half of peak to peak of each, seen at a few times of
+/// every step.
+#[derive(Clone, Debug)]
+pub(crate) struct Swing {
+    connections: Vec<usize>,
+    reference: f64,
+    /// Least and greatest twist and rate of each connection.
+    ranges: Vec<[f64; 4]>,
+}
+
+/// Times of a step at which the swing is seen.
+const LOOKS: u32 = 4;
+
+impl Swing {
+    /// Of the given connections; rates count over a reference speed.
+    pub(crate) fn new(connections: Vec<usize>, reference: f64) -> Self {
+        let none = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
+        Self { ranges: vec![none; connections.len()], connections, reference }
+    }
+
+    /// Takes in a step.
+    pub(crate) fn see(&mut self, step: &Step<'_>) {
+        for (connection, range) in self.connections.iter().zip(&mut self.ranges) {
+            for look in 0..LOOKS {
+                let t = step.length * f64::from(look) / f64::from(LOOKS);
+                let (twist, rate) = evaluate(&step.twists[*connection], t);
+                let rate = rate / self.reference;
+                range[0] = range[0].min(twist);
+                range[1] = range[1].max(twist);
+                range[2] = range[2].min(rate);
+                range[3] = range[3].max(rate);
+            }
+        }
+    }
+
+    /// Euclidean length of all swings.
+    pub(crate) fn size(&self) -> f64 {
+        let of = |r: &[f64; 4]| 0.25 * ((r[1] - r[0]).powi(2) + (r[3] - r[2]).powi(2));
+        self.ranges.iter().map(of).sum::<f64>().sqrt()
+    }
+}
