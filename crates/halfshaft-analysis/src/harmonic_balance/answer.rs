@@ -240,6 +240,7 @@ fn by_harmonics(
         judged: true,
     };
     let mut collected = job.collect(&seeds);
+    super::settling::settle(setting, &job, &mut collected);
     collected.counted.add(counted);
     collected
 }

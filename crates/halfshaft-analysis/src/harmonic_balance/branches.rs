@@ -5,6 +5,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::SpecialKind;
 
+use super::exact::{stretch, uncovered};
 use super::line::Line;
 use super::problem::{Axis, Problem};
 use super::refine::refine;
@@ -28,6 +29,13 @@ pub(crate) struct TracedBranch {
 }
 
 impl TracedBranch {
+    /// The stable part of the stretch from a sample to the next.
+    fn stable_between(&self, at: usize) -> Option<(f64, f64)> {
+        let special = self.specials.iter().find(|special| special.after == at);
+        let end = |at: usize| (self.samples[at].p, self.stability[at].is_stable());
+        stretch(end(at), end(at + 1), special.map(|special| special.sample.p))
+    }
+
     pub(crate) fn closed(&self) -> bool {
         self.ends[1] == BranchEnd::Closed
     }
@@ -40,8 +48,42 @@ pub(crate) struct Collected {
     pub(crate) exhausted: bool,
     pub(crate) cancelled: bool,
     pub(crate) messages: Vec<String>,
+    /// Values of the parameter at which a guess by one harmonic led to no response.
+    pub(crate) lost: Vec<f64>,
     /// Whether branches are exact orbits.
     pub(crate) exact: bool,
+}
+
+impl Collected {
+    /// Ranges over which no branch is stable, apart from narrow ones.
+    pub(super) fn gaps(&self, range: (f64, f64)) -> Vec<(f64, f64)> {
+        uncovered(self.stretches(TracedBranch::stable_between), range)
+    }
+
+    /// Whether a branch is stable at a value of the parameter.
+    pub(super) fn is_stable_at(&self, p: f64) -> bool {
+        let list = self.stretches(TracedBranch::stable_between);
+        list.iter().any(|(low, high)| *low <= p && p <= *high)
+    }
+
+    /// Whether there is a response at a value of the parameter.
+    pub(super) fn is_known_at(&self, p: f64) -> bool {
+        let whole = |branch: &TracedBranch, at: usize| {
+            stretch((branch.samples[at].p, true), (branch.samples[at + 1].p, true), None)
+        };
+        self.stretches(whole).iter().any(|(low, high)| *low <= p && p <= *high)
+    }
+
+    fn stretches(
+        &self,
+        of: impl Fn(&TracedBranch, usize) -> Option<(f64, f64)>,
+    ) -> Vec<(f64, f64)> {
+        let all = self
+            .branches
+            .iter()
+            .flat_map(|branch| (1..branch.samples.len()).map(move |next| (branch, next - 1)));
+        all.filter_map(|(branch, at)| of(branch, at)).collect()
+    }
 }
 
 /// What is being traced and how.
@@ -82,12 +124,12 @@ impl<'j, 'f> Job<'j, 'f> {
             exhausted: false,
             cancelled: false,
             messages: Vec::new(),
+            lost: Vec::new(),
             exact: false,
         };
         let Some((first, _, _)) = seeds.first() else { return all };
         let mut tracer = self.tracer(first.set.clone(), self.base);
         let mut judge = Judge::new(&tracer.problem.system, self.stability);
-        let mut lost = Vec::new();
         for (seed, p, origin) in seeds {
             if self.observer.cancelled() {
                 all.cancelled = true;
@@ -111,10 +153,9 @@ impl<'j, 'f> Job<'j, 'f> {
                     let branch = self.both_ways(&mut tracer, &mut judge, &sample, origin.clone());
                     all.branches.push(branch);
                 }
-                Err(_) => lost.push(*p),
+                Err(_) => all.lost.push(*p),
             }
         }
-        all.messages.extend(lost_guesses(&lost));
         all.counted.seeds = tracer.counted.seeds;
         all.counted.steps += tracer.counted.steps;
         all.counted.iterations += tracer.counted.iterations;
@@ -235,20 +276,6 @@ pub(super) fn flip(sample: &mut Sample) {
     sample.tangent.iter_mut().for_each(|x| *x = -*x);
     sample.tangent_p = -sample.tangent_p;
     sample.orientation = -sample.orientation;
-}
-
-/// What to say of guesses by one harmonic that led to no response.
-fn lost_guesses(lost: &[f64]) -> Option<String> {
-    let mut speeds: Vec<String> = lost.iter().map(|p| format!("{p:.6}")).collect();
-    speeds.dedup();
-    (!speeds.is_empty()).then(|| {
-        format!(
-            "{} guessed by one harmonic could not be made one of more harmonics, at {}: either there is \
-             none, or it is too far from one harmonic",
-            if lost.len() == 1 { "a response" } else { "responses" },
-            speeds.join(", ")
-        )
-    })
 }
 
 /// Whether a response lies on a branch, to a part of its size.

@@ -15,6 +15,7 @@ pub(super) fn messages(
 ) {
     let header = &mut result.header;
     header.warnings.extend(all.messages.iter().cloned());
+    lost_guesses(all, &mut header.warnings);
     if all.branches.is_empty() {
         header.warnings.push(format!(
             "no periodic response was found between {:.6} and {:.6} rad/s; try a narrower range or a \
@@ -83,5 +84,19 @@ pub(super) fn messages(
     if all.cancelled {
         let detail = "branches were left before their end".to_owned();
         header.termination = Termination::early(Reason::Cancelled, detail);
+    }
+}
+
+/// Speeds at which one harmonic has a response and no other is known.
+fn lost_guesses(all: &Collected, warnings: &mut Vec<String>) {
+    let unknown = all.lost.iter().filter(|p| !all.is_known_at(**p));
+    let mut speeds: Vec<String> = unknown.map(|p| format!("{p:.6}")).collect();
+    speeds.dedup();
+    if !speeds.is_empty() {
+        warnings.push(format!(
+            "one harmonic alone has a response at {} rad/s, but none was found there with more: try \
+             --method first-harmonic to see it, and a wider range",
+            speeds.join(", ")
+        ));
     }
 }

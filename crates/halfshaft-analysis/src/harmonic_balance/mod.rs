@@ -52,6 +52,7 @@ mod reduction;
 mod refine;
 mod seeds;
 mod series;
+mod settling;
 mod skeleton;
 mod special;
 mod stability;

@@ -16,7 +16,7 @@ use super::seeds;
 use crate::shooting::{Lost, Shooter};
 
 /// Lines of more groups than this are left to harmonics: shooting costs the square of their number.
-const MOST_GROUPS: usize = 16;
+pub(in super::super) const MOST_GROUPS: usize = 16;
 /// Steps of a period beyond which a line counts as too stiff to be followed.
 const MOST_STEPS: usize = 4000;
 /// Speeds at which orbits are followed over the drive.
@@ -177,6 +177,7 @@ impl<'s> Search<'s> {
             exhausted: false,
             cancelled,
             messages: self.explorer.messages.clone(),
+            lost: Vec::new(),
             exact: true,
         };
         all.counted.add(self.explorer.counted);

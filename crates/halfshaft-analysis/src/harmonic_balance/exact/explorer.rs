@@ -22,11 +22,11 @@ pub(super) struct ExactBranch {
 
 /// A guess at an orbit.
 #[derive(Clone, Debug)]
-pub(super) struct Guess {
-    pub(super) kind: Kind,
-    pub(super) state: Vec<f64>,
-    pub(super) p: f64,
-    pub(super) origin: String,
+pub(in super::super) struct Guess {
+    pub(in super::super) kind: Kind,
+    pub(in super::super) state: Vec<f64>,
+    pub(in super::super) p: f64,
+    pub(in super::super) origin: String,
 }
 
 /// Follows branches of one line over one parameter.

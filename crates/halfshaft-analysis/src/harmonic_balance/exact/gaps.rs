@@ -14,22 +14,39 @@ pub(super) fn inside((from, to): (f64, f64)) -> Vec<f64> {
 }
 
 /// Ranges of speeds over which no branch is stable, apart from narrow ones.
-pub(super) fn gaps(branches: &[ExactBranch], (low, high): (f64, f64)) -> Vec<(f64, f64)> {
-    let mut covered: Vec<(f64, f64)> = Vec::new();
-    for branch in branches {
-        for (at, pair) in branch.points.windows(2).enumerate() {
-            let stable = [&pair[0], &pair[1]].map(|point| point.stability.is_stable());
+pub(super) fn gaps(branches: &[ExactBranch], range: (f64, f64)) -> Vec<(f64, f64)> {
+    let covered = branches.iter().flat_map(|branch| {
+        branch.points.windows(2).enumerate().filter_map(|(at, pair)| {
             let special = branch.specials.iter().find(|special| special.after == at);
-            let between = special.map_or(pair[1].p(), |special| special.point.p());
-            let (from, to) = match stable {
-                [true, true] => (pair[0].p(), pair[1].p()),
-                [true, false] => (pair[0].p(), between),
-                [false, true] => (between, pair[1].p()),
-                [false, false] => continue,
-            };
-            covered.push((from.min(to), from.max(to)));
-        }
-    }
+            let between = special.map(|special| special.point.p());
+            let stable = |point: &super::point::Point| point.stability.is_stable();
+            stretch((pair[0].p(), stable(&pair[0])), (pair[1].p(), stable(&pair[1])), between)
+        })
+    });
+    uncovered(covered.collect(), range)
+}
+
+/// The stable part of the stretch between two neighbours of a branch, given as parameter and
+/// stability, with the special point between them where there is one.
+pub(in super::super) fn stretch(
+    from: (f64, bool),
+    to: (f64, bool),
+    special: Option<f64>,
+) -> Option<(f64, f64)> {
+    let (low, high) = match (from.1, to.1) {
+        (true, true) => (from.0, to.0),
+        (true, false) => (from.0, special.unwrap_or(to.0)),
+        (false, true) => (special.unwrap_or(to.0), to.0),
+        (false, false) => return None,
+    };
+    Some((low.min(high), low.max(high)))
+}
+
+/// What of a range no stretch covers, apart from narrow parts.
+pub(in super::super) fn uncovered(
+    mut covered: Vec<(f64, f64)>,
+    (low, high): (f64, f64),
+) -> Vec<(f64, f64)> {
     covered.sort_by(|a, b| a.0.total_cmp(&b.0));
     let narrow = NARROW * (high - low);
     let mut gaps = Vec::new();
@@ -44,4 +61,20 @@ pub(super) fn gaps(branches: &[ExactBranch], (low, high): (f64, f64)) -> Vec<(f6
         gaps.push((reached, high));
     }
     gaps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Source: by hand.
+    #[test]
+    fn what_no_stretch_covers_is_left() {
+        let covered = vec![(2.0, 3.0), (0.0, 1.0), (2.5, 2.7), (3.0005, 4.0)];
+        assert_eq!(uncovered(covered, (0.0, 5.0)), [(1.0, 2.0), (4.0, 5.0)]);
+        assert_eq!(uncovered(Vec::new(), (1.0, 2.0)), [(1.0, 2.0)]);
+        assert_eq!(stretch((1.0, true), (2.0, false), Some(1.5)), Some((1.0, 1.5)));
+        assert_eq!(stretch((1.0, false), (0.0, true), None), Some((0.0, 0.0)));
+        assert_eq!(stretch((1.0, false), (2.0, false), None), None);
+    }
 }

@@ -31,4 +31,8 @@ mod seeds;
 mod special;
 mod touch;
 
-pub(super) use answer::collect;
+pub(super) use answer::{MOST_GROUPS, collect};
+pub(super) use explorer::Guess;
+pub(super) use gaps::{stretch, uncovered};
+pub(super) use point::Kind;
+pub(super) use seeds::{MOST_MULTIPLE, at_rest, is_mirrored, settled, starts};

@@ -8,13 +8,13 @@ use crate::shooting::{Lost, Orbit, Plane, Shooter, Swing};
 
 /// What tells orbits of one kind from those of another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Kind {
+pub(in super::super) struct Kind {
     /// Order of the fundamental.
-    pub(super) base: f64,
+    pub(in super::super) base: f64,
     /// Periods of the excitation.
-    pub(super) periods: u32,
+    pub(in super::super) periods: u32,
     /// Whether orbits mirror themselves after half a period.
-    pub(super) mirrored: bool,
+    pub(in super::super) mirrored: bool,
 }
 
 /// An orbit on a branch.

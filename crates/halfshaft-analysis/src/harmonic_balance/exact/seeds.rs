@@ -74,7 +74,7 @@ pub(super) fn over_drive(
 }
 
 /// The line at rest: its twists, nothing else.
-pub(super) fn at_rest(
+pub(in super::super) fn at_rest(
     equations: &EquationsOfMotion,
     rest: &[f64],
     shooter: &Shooter<'_>,
@@ -89,14 +89,14 @@ pub(super) fn at_rest(
 /// Periods of the excitation after which a motion that does not repeat is given up.
 const MOST_PERIODS: usize = 160;
 /// Periods of an orbit at most.
-pub(super) const MOST_MULTIPLE: usize = 4;
+pub(in super::super) const MOST_MULTIPLE: usize = 4;
 /// Periods between looks whether the motion repeats.
 const LOOK: usize = 10;
 /// A motion repeats when its state comes back to this part of its size.
 const REPEATS: f64 = 3e-4;
 
 /// A guess at the orbit to which the line settles from a state.
-pub(super) fn settled(
+pub(in super::super) fn settled(
     shooter: &mut Shooter<'_>,
     kind: Kind,
     start: &[f64],
@@ -131,7 +131,7 @@ pub(super) fn settled(
 }
 
 /// States about a point from which the line is let run: itself at other phases and sizes.
-pub(super) fn starts(rest: &[f64], size: f64) -> Vec<Vec<f64>> {
+pub(in super::super) fn starts(rest: &[f64], size: f64) -> Vec<Vec<f64>> {
     let mut starts = vec![rest.to_vec()];
     for (turn, factor) in [1.0, 2.5, 4.0].into_iter().enumerate() {
         let moved = rest.iter().enumerate().map(|(k, x)| {
@@ -144,7 +144,7 @@ pub(super) fn starts(rest: &[f64], size: f64) -> Vec<Vec<f64>> {
 }
 
 /// Whether an orbit mirrors itself after half a period.
-pub(super) fn is_mirrored(shooter: &mut Shooter<'_>, state: &[f64], p: f64) -> bool {
+pub(in super::super) fn is_mirrored(shooter: &mut Shooter<'_>, state: &[f64], p: f64) -> bool {
     let after = shooter.after(state, p, 0.5, |_| {});
     after.is_ok_and(|after| {
         let sum: Vec<f64> = state.iter().zip(&after).map(|(a, b)| a + b).collect();

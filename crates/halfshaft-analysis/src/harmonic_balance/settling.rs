@@ -1,0 +1,181 @@
+//! What a smooth line settles to where no response is known to be stable.
+//!
+//! Guesses by one harmonic lead to most responses, but not to those that one harmonic is far from, nor
+//! to subharmonic ones. Where no branch is stable, and where a guess led nowhere, the line is let run
+//! until its motion repeats, and the branch through what it repeats is followed.
+
+use halfshaft_numerics::harmonics::HarmonicSet;
+
+use super::answer::Setting;
+use super::branches::{Collected, Job, NEAR, TracedBranch, on_branch};
+use super::exact::{self, Guess, Kind};
+use super::orbits::{coefficients_of, state_of};
+use super::stability::Judge;
+use crate::shooting::{Shooter, length};
+
+/// Parts of a gap at which the line is let run.
+const PLACES: [f64; 3] = [0.5, 0.15, 0.85];
+/// States from which it is let run at each.
+const STARTS: usize = 2;
+/// Runs of a gap that may end without a motion that repeats.
+const MOST_UNSETTLED: usize = 2;
+/// Highest order, over the excitation, of the harmonics to begin with.
+const ORDERS: usize = 24;
+
+/// Adds the branches that the line settles to in gaps and where guesses were lost.
+pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) {
+    let line = &setting.line;
+    let fits = line.equations.groups() <= exact::MOST_GROUPS && job.settings.harmonics.is_none();
+    if !fits || setting.range.0 == setting.range.1 {
+        return;
+    }
+    let before = all.branches.len();
+    let lost = std::mem::take(&mut all.lost);
+    for place in &lost {
+        if !all.is_stable_at(*place) {
+            Runs::new(setting, job).at(*place, all);
+        }
+    }
+    for (from, to) in all.gaps(setting.range) {
+        let mut runs = Runs::new(setting, job);
+        for part in PLACES {
+            let p = from + part * (to - from);
+            if !job.observer.cancelled() && !all.is_stable_at(p) && runs.unsettled < MOST_UNSETTLED
+            {
+                runs.at(p, all);
+            }
+        }
+    }
+    if all.branches.len() > before {
+        job.branch_off(all);
+    }
+    let missing = |p: &f64| !all.is_known_at(*p);
+    all.lost = lost.into_iter().filter(missing).collect();
+    for (from, to) in all.gaps(setting.range) {
+        all.messages.push(format!(
+            "no stable periodic response was found between {from:.6} and {to:.6} rad/s: where the line \
+             was let run its motion did not repeat within {} periods",
+            exact::MOST_MULTIPLE
+        ));
+    }
+}
+
+/// Runs of the line.
+struct Runs<'r, 's, 'f> {
+    setting: &'r Setting,
+    job: &'r Job<'s, 'f>,
+    shooter: Shooter<'r>,
+    unsettled: usize,
+}
+
+impl<'r, 's, 'f> Runs<'r, 's, 'f> {
+    fn new(setting: &'r Setting, job: &'r Job<'s, 'f>) -> Self {
+        let middle = f64::midpoint(setting.range.0, setting.range.1);
+        let shooter = Shooter::new(&setting.line.equations, setting.base, middle, false);
+        Self { setting, job, shooter, unsettled: 0 }
+    }
+
+    /// Lets the line run at one speed and follows what it settles to.
+    fn at(&mut self, p: f64, all: &mut Collected) {
+        let setting = self.setting;
+        let rest = exact::at_rest(&setting.line.equations, &setting.rest, &self.shooter);
+        let kind = Kind { base: setting.base, periods: 1, mirrored: false };
+        let size = self.size(all);
+        for start in exact::starts(&rest, size).into_iter().take(STARTS) {
+            let Some(mut guess) = exact::settled(&mut self.shooter, kind, &start, p) else {
+                self.unsettled += 1;
+                return;
+            };
+            let odd = setting.odd && guess.kind.periods == 1;
+            guess.kind.mirrored =
+                odd && exact::is_mirrored(&mut self.shooter, &guess.state, guess.p);
+            self.follow(&guess, all);
+        }
+    }
+
+    /// Size of the states of the largest responses.
+    fn size(&self, all: &Collected) -> f64 {
+        let coordinates = self.shooter.coordinates();
+        let sizes = all.branches.iter().filter_map(|branch| {
+            let largest =
+                branch.samples.iter().max_by(|a, b| length(&a.u).total_cmp(&length(&b.u)));
+            let line = &self.setting.line;
+            largest.map(|sample| length(&state_of(line, branch.base, sample, &coordinates)))
+        });
+        let size = sizes.fold(0.0, f64::max);
+        if size > 0.0 { size } else { 1.0 }
+    }
+
+    /// Follows the branch through a motion that repeats, unless that is known.
+    fn follow(&mut self, guess: &Guess, all: &mut Collected) {
+        let Kind { base, periods, mirrored } = guess.kind;
+        let mut shooter = self.shooter.of_kind(base, mirrored);
+        let Ok(orbit) = shooter.at(&guess.state, guess.p) else { return };
+        let highest = ORDERS.max(self.setting.excited()) * periods as usize;
+        let set = if mirrored { HarmonicSet::odd(highest) } else { HarmonicSet::all(highest) };
+        let line = &self.setting.line;
+        let Ok(u) = coefficients_of(line, base, &mut shooter, &orbit, &set) else { return };
+        let same_kind = |branch: &&TracedBranch| branch.base == base;
+        let mut others = all.branches.iter().filter(same_kind);
+        let images = images(&set, &u, periods, self.setting.odd);
+        if others.any(|branch| images.iter().any(|u| on_branch(branch, &set, u, guess.p, NEAR))) {
+            return;
+        }
+        let mut tracer = self.job.tracer(set.clone(), base);
+        let Ok(start) = tracer.seed(&set, &u, guess.p) else { return };
+        let mut judge = Judge::new(&tracer.problem.system, self.job.stability);
+        let origin = guess.origin.clone();
+        let mut branch = self.job.both_ways(&mut tracer, &mut judge, &start, origin);
+        branch.periods = periods;
+        all.counted.add(tracer.counted);
+        all.counted.seeds += 1;
+        all.exhausted |= tracer.exhausted;
+        all.branches.push(branch);
+    }
+}
+
+/// A response and what is the same but for its phase, and its mirror images where the line is odd.
+fn images(set: &HarmonicSet, u: &[f64], periods: u32, odd: bool) -> Vec<Vec<f64>> {
+    let part = std::f64::consts::TAU / f64::from(periods);
+    let mut list: Vec<Vec<f64>> =
+        (0..periods).map(|shift| turned(set, u, f64::from(shift) * part, 1.0)).collect();
+    if odd {
+        let half = |shift: u32| (f64::from(shift) + 0.5) * part;
+        list.extend((0..periods).map(|shift| turned(set, u, half(shift), -1.0)));
+    }
+    list
+}
+
+/// `sign x(θ + by)`.
+fn turned(set: &HarmonicSet, u: &[f64], by: f64, sign: f64) -> Vec<f64> {
+    let mut out: Vec<f64> = u.iter().map(|x| sign * x).collect();
+    for node in out.chunks_exact_mut(set.coefficients()) {
+        for (order, place) in set.places().filter(|(order, _)| *order > 0) {
+            let (sine, cosine) = (order as f64 * by).sin_cos();
+            let (a, b) = (node[place], node[place + 1]);
+            (node[place], node[place + 1]) = (a * cosine + b * sine, b * cosine - a * sine);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    // Source: the series itself at the shifted phase.
+    #[test]
+    fn turned_series_are_shifted() {
+        let set = HarmonicSet::all(3);
+        let u = [0.3, 1.0, -0.4, 0.0, 0.2, 0.05, -0.1];
+        let images = images(&set, &u, 3, true);
+        assert_eq!(images.len(), 6);
+        for (k, image) in images.iter().enumerate() {
+            let part = std::f64::consts::TAU / 3.0;
+            let (by, sign) =
+                if k < 3 { (k as f64 * part, 1.0) } else { ((k as f64 - 2.5) * part, -1.0) };
+            let value = set.evaluate(image, 0.7).0;
+            assert!((value - sign * set.evaluate(&u, 0.7 + by).0).abs() < 1e-14, "{k}");
+        }
+    }
+}
