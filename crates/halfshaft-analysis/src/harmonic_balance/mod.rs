@@ -45,6 +45,7 @@ mod monodromy;
 mod orbits;
 mod panels;
 mod parameter_answer;
+mod predictor;
 mod problem;
 mod range;
 mod receptance;

@@ -13,6 +13,8 @@
 //! speed unless dampers to ground couple it. An orbit that mirrors itself after half a period needs
 //! half the work: its monodromy matrix is a square.
 
+use std::cell::Cell;
+
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_dynamics::laws::{Piece, Pieces};
 use halfshaft_numerics::Complex;
@@ -21,7 +23,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 
 use super::panels::{Panels, Tangent};
 use super::reduction::Reduction;
-use super::series::{MOST, Series, Truncation, expand, friction_slope, stiffness};
+use super::series::{MOST, Truncation, expand, friction_slope, stiffness};
 use super::structure::{Structure, WholeLine};
 use super::switching::passages;
 
@@ -39,6 +41,8 @@ pub(super) struct Orbit<'o> {
 pub(super) struct Variational {
     /// Pieces of the law of each connection; `None` for linear ones.
     laws: Vec<Option<Pieces>>,
+    /// Phase of the first step that the last orbit allowed: the next orbit's is much the same.
+    first: Cell<f64>,
     /// A few modes that a long line with few nonlinear connections is as good as.
     reduction: Reduction,
 }
@@ -58,7 +62,7 @@ impl Variational {
         for index in nonlinear {
             laws[*index] = Some(equations.connections[*index].law.pieces());
         }
-        Self { laws, reduction: Reduction::new(nonlinear) }
+        Self { laws, first: Cell::new(0.0), reduction: Reduction::new(nonlinear) }
     }
 
     /// The same without modes, for holding them against it.
@@ -125,37 +129,36 @@ impl Variational {
         let truncation =
             if structure.columns() > MANY { Truncation::LONG } else { Truncation::SHORT };
         let mut panels = Panels::<W>::new(structure, orbit.speed, truncation);
-        let list = structure.connections();
-        let mut t = 0.0;
-        let mut steps = 0;
-        let mut next = 0.0;
+        let mut tangents = linear_tangents(equations, structure.connections());
+        let mut next = self.first.get() / orbit.speed;
+        let (mut t, mut steps) = (0.0, 0);
         for goal in self.stops(orbit, end) {
             if goal - t <= 1e-13 * end {
                 continue;
             }
             let pieces = self.active(orbit, f64::midpoint(t, goal));
+            let mut place = Place { equations, orbit, pieces: &pieces, t, reach: goal - t };
             while t < goal {
+                place.t = t;
                 if next == 0.0 {
-                    let tangents = self.tangents(
-                        equations,
-                        list,
-                        orbit,
-                        &pieces,
-                        (t, goal - t),
-                        truncation.degree,
-                    );
+                    place.reach = goal - t;
+                    place.expand(structure.connections(), truncation.degree, &mut tangents);
                     next = panels.longest_step(structure, &tangents);
                 }
                 let left = goal - t;
                 // A sliver left over would cost a step of its own.
                 let mut step = if next > 0.8 * left { left.min(1.2 * next) } else { next };
-                let tangents =
-                    self.tangents(equations, list, orbit, &pieces, (t, step), truncation.degree);
+                place.reach = step;
+                place.expand(structure.connections(), truncation.degree, &mut tangents);
                 let reach = panels.step(structure, &tangents, &mut step);
                 t = if step == left { goal } else { t + step };
                 next = CAUTION * reach;
+                if steps == 0 {
+                    self.first.set(next * orbit.speed);
+                }
                 steps += 1;
                 if steps > MOST_STEPS || !step.is_finite() || step <= 0.0 {
+                    self.first.set(0.0);
                     let stop =
                         halfshaft_numerics::ode::Stop::StepLimit { time: t, limit: MOST_STEPS };
                     return Err(stop.into());
@@ -191,46 +194,55 @@ impl Variational {
         }
         active
     }
+}
 
-    /// Tangents of the listed connections, ascending.
-    fn tangents(
-        &self,
-        equations: &EquationsOfMotion,
-        list: &[usize],
-        orbit: &Orbit<'_>,
-        pieces: &[Option<Piece>],
-        (t, reach): (f64, f64),
-        degree: usize,
-    ) -> Vec<Tangent> {
-        let zero = [0.0; MOST + 1];
-        let of = |index: &usize| {
-            let connection = &equations.connections[*index];
-            let (mut stiffness, mut damping) = (zero, zero);
-            stiffness[0] = connection.law.stiffness(0.0);
-            damping[0] = connection.damping;
-            Tangent { stiffness, stiffness_terms: 1, damping, damping_terms: 1 }
-        };
-        let mut tangents: Vec<Tangent> = list.iter().map(of).collect();
-        let mut x = zero;
-        for (connection, twist) in orbit.twists {
-            let Some(piece) = &pieces[*connection] else { continue };
+/// Where along an orbit tangents are expanded.
+struct Place<'p> {
+    equations: &'p EquationsOfMotion,
+    orbit: &'p Orbit<'p>,
+    /// The piece of each nonlinear law that the twist is on.
+    pieces: &'p [Option<Piece>],
+    t: f64,
+    /// Time over which the series are needed.
+    reach: f64,
+}
+
+impl Place<'_> {
+    /// Writes the tangents of the nonlinear ones of the listed connections, ascending.
+    fn expand(&self, list: &[usize], degree: usize, tangents: &mut [Tangent]) {
+        let mut x = [0.0; MOST + 1];
+        for (connection, twist) in self.orbit.twists {
+            let Some(piece) = &self.pieces[*connection] else { continue };
             let Ok(place) = list.binary_search(connection) else { continue };
             let tangent = &mut tangents[place];
-            expand(orbit.set, twist, orbit.speed, t, degree, &mut x);
+            let connection = &self.equations.connections[*connection];
+            expand(self.orbit.set, twist, self.orbit.speed, self.t, degree, &mut x);
             stiffness(piece, &x, degree, &mut tangent.stiffness);
-            tangent.stiffness_terms = terms(&tangent.stiffness, reach);
-            if let Some(friction) = &equations.connections[*connection].friction {
+            tangent.stiffness_terms = terms(&tangent.stiffness[..=degree], self.reach);
+            if let Some(friction) = &connection.friction {
                 friction_slope(friction, &x, degree, &mut tangent.damping);
-                tangent.damping[0] += equations.connections[*connection].damping;
-                tangent.damping_terms = terms(&tangent.damping, reach);
+                tangent.damping[0] += connection.damping;
+                tangent.damping_terms = terms(&tangent.damping[..=degree], self.reach);
             }
         }
-        tangents
     }
 }
 
+/// Tangents of the listed connections as if all were linear.
+fn linear_tangents(equations: &EquationsOfMotion, list: &[usize]) -> Vec<Tangent> {
+    let zero = [0.0; MOST + 1];
+    let of = |index: &usize| {
+        let connection = &equations.connections[*index];
+        let (mut stiffness, mut damping) = (zero, zero);
+        stiffness[0] = connection.law.stiffness(0.0);
+        damping[0] = connection.damping;
+        Tangent { stiffness, stiffness_terms: 1, damping, damping_terms: 1 }
+    };
+    list.iter().map(of).collect()
+}
+
 /// Terms of a series until the rest is rounding over a step of the given length.
-fn terms(series: &Series, reach: f64) -> usize {
+fn terms(series: &[f64], reach: f64) -> usize {
     let mut power = 1.0;
     let mut largest = 0.0_f64;
     let mut last = 0;

@@ -35,6 +35,8 @@ pub(super) struct Problem<'f> {
     pub(super) factors: Option<Factors>,
     /// The value of the parameter for which the system's line was made.
     made_for: Option<f64>,
+    /// A first correction below this is the last.
+    first_enough: f64,
 }
 
 /// Why a point could not be found.
@@ -88,6 +90,9 @@ impl Metric {
 const MOST_ITERATIONS: usize = 8;
 /// A correction below this has left an error of its square.
 const CONVERGED: f64 = 1e-8;
+/// On the way along a curve a first correction below this is the last: what it leaves is of the order
+/// of its square.
+const SMALL: f64 = 1e-5;
 /// Relative step of difference quotients by a parameter of the line.
 const PARAMETER_STEP: f64 = 1e-6;
 
@@ -96,7 +101,16 @@ impl<'f> Problem<'f> {
         let matrix = system.blocks(1);
         let unknowns = system.unknowns();
         let by_parameter = vec![0.0; unknowns];
-        Self { matrix, factors: None, by_parameter, system, axis, place, made_for: None }
+        Self {
+            matrix,
+            factors: None,
+            by_parameter,
+            system,
+            axis,
+            place,
+            made_for: None,
+            first_enough: CONVERGED,
+        }
     }
 
     /// The same curve with other harmonics.
@@ -218,12 +232,26 @@ impl<'f> Problem<'f> {
             if iteration == 1 {
                 done.first = size;
             }
-            if size <= CONVERGED {
+            if size <= if iteration == 1 { self.first_enough } else { CONVERGED } {
                 return Ok(done);
             }
             before = size;
         }
         Err(Failure::NotConverged)
+    }
+
+    /// The same on the way along a curve, where the guess is good and the Jacobian far from singular.
+    pub(super) fn correct_next(
+        &mut self,
+        u: &mut [f64],
+        p: &mut f64,
+        condition: &Condition<'_>,
+        metric: &Metric,
+    ) -> Result<Corrected, Failure> {
+        self.first_enough = SMALL;
+        let done = self.correct(u, p, condition, metric);
+        self.first_enough = CONVERGED;
+        done
     }
 
     /// The response at a fixed value of the parameter, from a guess.

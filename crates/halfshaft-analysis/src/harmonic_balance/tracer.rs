@@ -13,6 +13,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
 use super::closing::comes_back;
+use super::predictor::bend;
 use super::problem::{Condition, Corrected, Failure, Metric, Problem};
 
 /// A response on a branch.
@@ -326,7 +327,7 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let mut p = last.p + step * along_p;
         let (straight, straight_p) = (u.clone(), p);
         if let Some(before) = before {
-            bend(last, before, set, &metric, step, (&along, along_p), (&mut u, &mut p));
+            bend((last, before), set, &metric, step, (&along, along_p), (&mut u, &mut p));
         }
         let weights: Vec<f64> = along.iter().map(|x| x / (metric.size * metric.size)).collect();
         let corner = along_p / (metric.span * metric.span);
@@ -335,7 +336,7 @@ impl<'t, 'f> Tracer<'t, 'f> {
         };
         let condition =
             Condition { row: &weights, corner, target: target(&weights, &straight, straight_p) };
-        let done = self.problem.correct(&mut u, &mut p, &condition, &metric)?;
+        let done = self.problem.correct_next(&mut u, &mut p, &condition, &metric)?;
         self.counted.iterations += done.iterations;
         let miss: Vec<f64> = u.iter().zip(&straight).map(|(a, b)| a - b).collect();
         let miss = metric.norm(&miss, p - straight_p);
@@ -407,36 +408,6 @@ pub(super) fn refit(from: &HarmonicSet, to: &HarmonicSet, factor: usize, u: &[f6
         to.take(from, factor, source, target);
     }
     out
-}
-
-/// Adds the curve's bend to a prediction: a parabola through the last sample with its tangent and the
-/// sample before.
-fn bend(
-    last: &Sample,
-    before: &Sample,
-    set: &HarmonicSet,
-    metric: &Metric,
-    step: f64,
-    (along, along_p): (&[f64], f64),
-    (u, p): (&mut [f64], &mut f64),
-) {
-    let here = refit(&last.set, set, 1, &last.u);
-    let there = refit(&before.set, set, 1, &before.u);
-    let back: Vec<f64> = there.iter().zip(&here).map(|(a, b)| a - b).collect();
-    let back_p = before.p - last.p;
-    let travelled = -metric.dot((&back, back_p), (along, along_p));
-    if travelled <= 0.0 {
-        return;
-    }
-    // before = last - h t + h² c.
-    let factor = (step / travelled).powi(2);
-    if factor > 9.0 {
-        return;
-    }
-    for ((u, back), along) in u.iter_mut().zip(&back).zip(along) {
-        *u += factor * (back + travelled * along);
-    }
-    *p += factor * (back_p + travelled * along_p);
 }
 
 fn oriented(sample: &Sample, sign: f64) -> Sample {
