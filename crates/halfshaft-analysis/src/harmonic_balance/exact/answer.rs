@@ -36,7 +36,10 @@ pub(in super::super) fn collect(
     observer: &dyn Observer,
 ) -> Option<Collected> {
     let line = &setting.line;
+    // Friction that bends within a small speed is stiff: shooting creeps, harmonics average over it.
+    let rubs = line.equations.connections.iter().any(|c| c.friction.is_some());
     let fits = line.has_kinks()
+        && !rubs
         && line.equations.groups() <= MOST_GROUPS
         && question.harmonics.is_none()
         && question.stability == StabilityMethod::Monodromy;

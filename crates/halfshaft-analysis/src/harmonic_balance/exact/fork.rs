@@ -130,14 +130,14 @@ impl Explorer<'_, '_> {
         let reference = self.shooter.reference();
         let n = orbit.state.len();
         let (mut tangent, tangent_p) = match parting {
-            Parting::Doubling => (null_vector(shifted(&orbit.matrix, 1.0))?, 0.0),
-            Parting::Mirror => (null_vector(shifted(&orbit.matrix, -1.0))?, 0.0),
+            Parting::Doubling => (null_vector(&shifted(&orbit.matrix, 1.0))?, 0.0),
+            Parting::Mirror => (null_vector(&shifted(&orbit.matrix, -1.0))?, 0.0),
             Parting::None => {
                 let along = (&special.point.tangent, special.point.tangent_p / reference);
                 let shooter = self.shooter.of_kind(old.base, old.mirrored);
                 let bordered =
                     shooter.bordered(&orbit.matrix, &orbit.by_frequency, along.0, along.1);
-                let mut both = null_vector(bordered)?;
+                let mut both = null_vector(&bordered)?;
                 let by_reference = both.pop().unwrap_or(0.0);
                 (both, by_reference * reference)
             }
@@ -238,9 +238,9 @@ fn shifted(matrix: &Matrix, shift: f64) -> Matrix {
 }
 
 /// The vector that a singular matrix takes to nothing, of unit length, by inverse iteration.
-fn null_vector(matrix: Matrix) -> Result<Vec<f64>, Lost> {
+fn null_vector(matrix: &Matrix) -> Result<Vec<f64>, Lost> {
     let n = matrix.rows();
-    let lu = Lu::new(&shifted(&matrix, SHIFT)).map_err(|_| Lost::Singular)?;
+    let lu = Lu::new(&shifted(matrix, SHIFT)).map_err(|_| Lost::Singular)?;
     // A fixed start that has a share of everything.
     let mut v: Vec<f64> = (0..n).map(|k| 1.0 + 0.3 * (k as f64 * 1.7).sin()).collect();
     for _ in 0..ITERATIONS {
