@@ -19,6 +19,9 @@ use crate::shooting::{Lost, Shooter};
 const MOST_GROUPS: usize = 16;
 /// Steps of a period beyond which a line counts as too stiff to be followed.
 const MOST_STEPS: usize = 4000;
+/// Points of a branch to either side of its start at most: where a line rattles at low speeds branches
+/// may fold without end, and others are not to wait for them.
+const MOST_POINTS: usize = 1500;
 /// Speeds at which orbits are followed over the drive.
 const CURVES: usize = 3;
 /// Speeds at which the line is let run.
@@ -67,7 +70,7 @@ impl<'s> Search<'s> {
             range: setting.range,
             miss: numbers.miss,
             longest: numbers.longest,
-            most_points: numbers.most_samples,
+            most_points: MOST_POINTS.min(numbers.most_samples),
             most_size: numbers.most_size,
             enough: ENOUGH,
         };

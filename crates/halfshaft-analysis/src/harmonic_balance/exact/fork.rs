@@ -12,6 +12,8 @@ use crate::shooting::{Lost, Orbit, length};
 
 /// Branches that are asked for what branches off.
 const MOST_BRANCHES: usize = 24;
+/// Forks that are asked at most.
+const MOST_FORKS: usize = 40;
 /// How far from a fork the first orbit of the other branch is looked for, relative to the swing.
 const OFFSETS: [f64; 5] = [1e-2, 3e-3, 3e-2, 1e-3, 1e-4];
 /// Inverse iterations for a null vector, and the shift that keeps the matrix regular.
@@ -50,7 +52,7 @@ struct Fork {
 impl Explorer<'_, '_> {
     /// Follows what branches off at branch points and period doublings.
     pub(super) fn branch_off(&mut self) {
-        let mut at = 0;
+        let (mut at, mut asked) = (0, 0);
         while at < self.branches.len() && at < MOST_BRANCHES {
             let branch = self.branches[at].clone();
             for special in branch.specials.iter().filter(|special| special.located) {
@@ -61,6 +63,10 @@ impl Explorer<'_, '_> {
                 let (low, high) = self.forks;
                 if !(low..=high).contains(&special.point.p()) {
                     continue;
+                }
+                asked += 1;
+                if asked > MOST_FORKS {
+                    return;
                 }
                 match self.switch(&branch, special, parting) {
                     Ok(Some(found)) => self.branches.push(found),
