@@ -9,7 +9,7 @@ use super::super::orbits::state_of_series;
 use super::super::tracer::{BranchEnd, Counted};
 use super::curve::Limits;
 use super::explorer::{Explorer, Guess};
-use super::gaps::{gaps, inside};
+use super::gaps::{gaps, inside, told};
 use super::point::Kind;
 use super::responses::{ORDERS, Responses};
 use super::seeds;
@@ -200,14 +200,7 @@ impl<'s> Search<'s> {
                 self.tolerance
             ));
         }
-        let alone = gaps(&self.explorer.branches, self.setting.range);
-        for (from, to) in alone {
-            all.messages.push(format!(
-                "no stable periodic response was found between {from:.6} and {to:.6} rad/s: the motion \
-                 does not repeat there within {} periods, or does so only after very long",
-                seeds::MOST_MULTIPLE
-            ));
-        }
+        all.messages.extend(told(&gaps(&self.explorer.branches, self.setting.range)));
         all.cancelled |= all.branches.iter().any(|b| b.ends.contains(&BranchEnd::Cancelled));
         all
     }
