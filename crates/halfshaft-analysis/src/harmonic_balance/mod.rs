@@ -15,7 +15,7 @@
 //! | `lines`, `fold_system`, `fold_points`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
-//! | `channels`, `breaks`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
+//! | `channels`, `breaks`, `measured`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
 //! | `layers` | single layers, for benches |
 
 mod alternating;
@@ -39,6 +39,7 @@ mod kinks;
 pub mod layers;
 mod line;
 mod lines;
+mod measured;
 mod messages;
 mod modes;
 mod monodromy;

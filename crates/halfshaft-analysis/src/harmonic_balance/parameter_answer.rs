@@ -7,10 +7,11 @@ use halfshaft_model::{ChangeError, Driveline};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::ResonanceResult;
 
-use super::answer::{Along, Measured, Setting, assemble, trace_settings};
+use super::answer::{Setting, assemble, trace_settings};
 use super::branches::Job;
 use super::line::{Line, nonlinear};
 use super::lines::Lines;
+use super::measured::{Along, Measured};
 use super::messages::messages;
 use super::problem::Axis;
 use super::seeds::over_drive;

@@ -49,7 +49,7 @@ pub(crate) enum BranchEnd {
     Unbounded,
     /// Where a contact closes and opens too often to be followed.
     Chattering,
-    /// Where a twist grazes a break of its law and no orbit was found beyond.
+    /// Where a twist grazes a break of its law, nothing beyond.
     Grazing,
     /// The user stopped it.
     Cancelled,
@@ -366,13 +366,12 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let part = (border - inside.p) / (outside.p - inside.p);
         let set = outside.set.clone();
         let inner = refit(&inside.set, &set, 1, &inside.u);
-        let guess: Vec<f64> =
+        let mut u: Vec<f64> =
             inner.iter().zip(&outside.u).map(|(a, b)| a + part * (b - a)).collect();
-        let mut u = guess;
         let mut same = u.clone();
         self.use_set(&set, &mut same, &set);
-        let size = length(&u).max(f64::MIN_POSITIVE.sqrt());
-        self.problem.at(&mut u, border, size).ok()?;
+        let metric = self.metric(&u);
+        self.problem.at(&mut u, border, metric.size).ok()?;
         let metric = self.metric(&u);
         let along = refit(&inside.set, &set, 1, &inside.tangent);
         self.finish_sample(set, u, border, &metric, Some((&along, inside.tangent_p))).ok()

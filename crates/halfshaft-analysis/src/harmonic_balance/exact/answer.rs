@@ -9,7 +9,7 @@ use super::super::orbits::state_of_series;
 use super::super::tracer::{BranchEnd, Counted};
 use super::curve::Limits;
 use super::explorer::{Explorer, Guess};
-use super::gaps::{gaps, inside};
+use super::gaps::{gaps, inside, told};
 use super::point::Kind;
 use super::responses::{ORDERS, Responses};
 use super::seeds;
@@ -19,6 +19,9 @@ use crate::shooting::{Lost, Shooter};
 pub(in super::super) const MOST_GROUPS: usize = 16;
 /// Steps of a period beyond which a line counts as too stiff to be followed.
 const MOST_STEPS: usize = 4000;
+/// Points of a branch to either side of its start at most: where a line rattles at low speeds branches
+/// may fold without end, and others are not to wait for them.
+const MOST_POINTS: usize = 1500;
 /// Speeds at which orbits are followed over the drive.
 const CURVES: usize = 3;
 /// Speeds at which the line is let run.
@@ -36,7 +39,10 @@ pub(in super::super) fn collect(
     observer: &dyn Observer,
 ) -> Option<Collected> {
     let line = &setting.line;
+    // Friction that bends within a small speed is stiff: shooting creeps, harmonics average over it.
+    let rubs = line.equations.connections.iter().any(|c| c.friction.is_some());
     let fits = line.has_kinks()
+        && !rubs
         && line.equations.groups() <= MOST_GROUPS
         && question.harmonics.is_none()
         && question.stability == StabilityMethod::Monodromy;
@@ -64,7 +70,7 @@ impl<'s> Search<'s> {
             range: setting.range,
             miss: numbers.miss,
             longest: numbers.longest,
-            most_points: numbers.most_samples,
+            most_points: MOST_POINTS.min(numbers.most_samples),
             most_size: numbers.most_size,
             enough: ENOUGH,
         };
@@ -195,14 +201,7 @@ impl<'s> Search<'s> {
                 self.tolerance
             ));
         }
-        let alone = gaps(&self.explorer.branches, self.setting.range);
-        for (from, to) in alone {
-            all.messages.push(format!(
-                "no stable periodic response was found between {from:.6} and {to:.6} rad/s: the motion \
-                 does not repeat there within {} periods, or does so only after very long",
-                seeds::MOST_MULTIPLE
-            ));
-        }
+        all.messages.extend(told(&gaps(&self.explorer.branches, self.setting.range)));
         all.cancelled |= all.branches.iter().any(|b| b.ends.contains(&BranchEnd::Cancelled));
         all
     }

@@ -31,6 +31,8 @@ pub(super) struct Limits {
 
 /// Shortest step, in the metric.
 const SHORTEST: f64 = 1e-9;
+/// Steps shorter than this do not leap.
+const LEAST_LEAP: f64 = 2e-4;
 /// Steps down to this are tried where the branch leaps to another.
 const LEAP: f64 = 1e-6;
 /// Part of a step in which direction may turn: cosine of the angle.
@@ -68,7 +70,7 @@ impl From<Lost> for Refused {
 
 impl<'c, 'e> Curve<'c, 'e> {
     pub(super) fn new(
-        shooter: Shooter<'e>,
+        shooter: &Shooter<'e>,
         kind: Kind,
         odd: bool,
         limits: Limits,
@@ -280,7 +282,9 @@ impl<'c, 'e> Curve<'c, 'e> {
         let next = self.point(orbit, Some(along))?;
         let turn = metric.dot((&next.tangent, next.tangent_p), along);
         let turn = turn / metric.norm(&next.tangent, next.tangent_p);
-        if turn < LEAST_TURN && step > 1e2 * SHORTEST {
+        // A change of orientation without a branch point is a leap to another branch.
+        let leapt = next.orientation * last.orientation < 0.0 && step > LEAST_LEAP;
+        if leapt || (turn < LEAST_TURN && step > 1e2 * SHORTEST) {
             return Err(Lost::NotConverged.into());
         }
         Ok((next, miss))

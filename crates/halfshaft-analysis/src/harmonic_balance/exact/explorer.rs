@@ -67,7 +67,7 @@ impl<'x, 'e> Explorer<'x, 'e> {
     }
 
     pub(super) fn curve(&self, kind: Kind) -> Curve<'x, 'e> {
-        Curve::new(self.shooter.clone(), kind, self.odd, self.limits, self.observer)
+        Curve::new(&self.shooter, kind, self.odd, self.limits, self.observer)
     }
 
     pub(super) fn count(&mut self, curve: &Curve<'_, '_>) {

@@ -12,6 +12,8 @@ use crate::shooting::{Lost, Orbit, length};
 
 /// Branches that are asked for what branches off.
 const MOST_BRANCHES: usize = 24;
+/// Forks that are asked at most.
+const MOST_FORKS: usize = 40;
 /// How far from a fork the first orbit of the other branch is looked for, relative to the swing.
 const OFFSETS: [f64; 5] = [1e-2, 3e-3, 3e-2, 1e-3, 1e-4];
 /// Inverse iterations for a null vector, and the shift that keeps the matrix regular.
@@ -50,7 +52,7 @@ struct Fork {
 impl Explorer<'_, '_> {
     /// Follows what branches off at branch points and period doublings.
     pub(super) fn branch_off(&mut self) {
-        let mut at = 0;
+        let (mut at, mut asked) = (0, 0);
         while at < self.branches.len() && at < MOST_BRANCHES {
             let branch = self.branches[at].clone();
             for special in branch.specials.iter().filter(|special| special.located) {
@@ -61,6 +63,10 @@ impl Explorer<'_, '_> {
                 let (low, high) = self.forks;
                 if !(low..=high).contains(&special.point.p()) {
                     continue;
+                }
+                asked += 1;
+                if asked > MOST_FORKS {
+                    return;
                 }
                 match self.switch(&branch, special, parting) {
                     Ok(Some(found)) => self.branches.push(found),
@@ -130,14 +136,14 @@ impl Explorer<'_, '_> {
         let reference = self.shooter.reference();
         let n = orbit.state.len();
         let (mut tangent, tangent_p) = match parting {
-            Parting::Doubling => (null_vector(shifted(&orbit.matrix, 1.0))?, 0.0),
-            Parting::Mirror => (null_vector(shifted(&orbit.matrix, -1.0))?, 0.0),
+            Parting::Doubling => (null_vector(&shifted(&orbit.matrix, 1.0))?, 0.0),
+            Parting::Mirror => (null_vector(&shifted(&orbit.matrix, -1.0))?, 0.0),
             Parting::None => {
                 let along = (&special.point.tangent, special.point.tangent_p / reference);
                 let shooter = self.shooter.of_kind(old.base, old.mirrored);
                 let bordered =
                     shooter.bordered(&orbit.matrix, &orbit.by_frequency, along.0, along.1);
-                let mut both = null_vector(bordered)?;
+                let mut both = null_vector(&bordered)?;
                 let by_reference = both.pop().unwrap_or(0.0);
                 (both, by_reference * reference)
             }
@@ -238,9 +244,9 @@ fn shifted(matrix: &Matrix, shift: f64) -> Matrix {
 }
 
 /// The vector that a singular matrix takes to nothing, of unit length, by inverse iteration.
-fn null_vector(matrix: Matrix) -> Result<Vec<f64>, Lost> {
+fn null_vector(matrix: &Matrix) -> Result<Vec<f64>, Lost> {
     let n = matrix.rows();
-    let lu = Lu::new(&shifted(&matrix, SHIFT)).map_err(|_| Lost::Singular)?;
+    let lu = Lu::new(&shifted(matrix, SHIFT)).map_err(|_| Lost::Singular)?;
     // A fixed start that has a share of everything.
     let mut v: Vec<f64> = (0..n).map(|k| 1.0 + 0.3 * (k as f64 * 1.7).sin()).collect();
     for _ in 0..ITERATIONS {

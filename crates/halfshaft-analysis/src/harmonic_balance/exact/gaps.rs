@@ -1,11 +1,31 @@
 //! Ranges of speeds over which no branch is stable.
 
 use super::explorer::ExactBranch;
+use super::seeds::MOST_MULTIPLE;
 
 /// Speeds at which it is let run where no branch is stable.
 const GAP_SPEEDS: usize = 9;
 /// Part of the range below which a gap is none.
 const NARROW: f64 = 1e-3;
+
+/// Gaps that are told one by one.
+const TOLD: usize = 6;
+
+/// What to say of ranges over which no branch is stable.
+pub(super) fn told(gaps: &[(f64, f64)]) -> Option<String> {
+    if gaps.is_empty() {
+        return None;
+    }
+    let range = |(from, to): &(f64, f64)| format!("{from:.6} and {to:.6}");
+    let ranges: Vec<String> = gaps.iter().take(TOLD).map(range).collect();
+    let more = gaps.len().saturating_sub(TOLD);
+    let more = if more > 0 { format!(" and in {more} more ranges") } else { String::new() };
+    Some(format!(
+        "no stable periodic response was found between {} rad/s{more}: the motion does not repeat there \
+         within {MOST_MULTIPLE} periods, or does so only after very long",
+        ranges.join(", between ")
+    ))
+}
 
 /// Speeds within a gap.
 pub(super) fn inside((from, to): (f64, f64)) -> Vec<f64> {

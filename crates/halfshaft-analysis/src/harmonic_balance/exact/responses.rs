@@ -15,6 +15,8 @@ use super::point::Point;
 
 /// Highest orders that are tried, one after the other.
 pub(super) const ORDERS: [usize; 4] = [64, 200, 600, 1200];
+/// Orders from which those beyond the highest are judged.
+const LAST: usize = 16;
 /// Part of the tolerance that special points are told to.
 const SPECIAL: f64 = 0.05;
 /// Orders of sets: few different ones.
@@ -80,10 +82,8 @@ impl Responses<'_> {
             let u = coefficients_of(line, base, &mut curve.shooter, &point.orbit, &set).ok()?;
             let tails = tails(line, &set, &u);
             let enough = tails.iter().position(|tail| *tail < tolerance);
-            let enough = enough.unwrap_or(most);
-            known = Some((set, u, tails, enough));
-            // Beyond two thirds of the orders the tail is not all seen.
-            if 3 * enough <= 2 * most {
+            known = Some((set, u, tails, enough.unwrap_or(most)));
+            if enough.is_some() {
                 break;
             }
         }
@@ -91,7 +91,7 @@ impl Responses<'_> {
         let highest = RUNGS.into_iter().find(|rung| *rung >= enough).unwrap_or(set.highest());
         let kept = of(highest.clamp(least, set.highest().max(least)));
         let truncation = tails.get(kept.highest()).copied().unwrap_or(0.0);
-        *exhausted |= 3 * enough > 2 * ORDERS[ORDERS.len() - 1];
+        *exhausted |= truncation > tolerance;
         Some(Sample {
             u: refit(&set, &kept, 1, &u),
             set: kept,
@@ -127,7 +127,8 @@ fn add_tails(set: &HarmonicSet, series: &[f64], tails: &mut [f64]) {
     if whole == 0.0 {
         return;
     }
-    let mut sum = 0.0_f64;
+    // Orders beyond the highest: no slower than the third power, as where a damper begins to act.
+    let mut sum = 0.5 * set.highest() as f64 * last(set, series);
     let mut above = tails.len();
     for (order, place) in set.places().collect::<Vec<_>>().into_iter().rev() {
         // The tail beyond `order`, and beyond those left out between it and the next.
@@ -144,21 +145,37 @@ fn add_tails(set: &HarmonicSet, series: &[f64], tails: &mut [f64]) {
     }
 }
 
+/// Mean modulus of the last orders of a series.
+fn last(set: &HarmonicSet, series: &[f64]) -> f64 {
+    let count = set.orders().len();
+    let least = count.saturating_sub(LAST).max(1);
+    let places = set.places().skip(least).map(|(_, place)| place);
+    let sum: f64 = places.map(|place| series[place].hypot(series[place + 1])).sum();
+    sum / LAST as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    // Source: sums by hand. Orders 1 to 3 of modulus 4, 3 and 0.5 leave 3.5, 0.5 and nothing, over the
-    // length of all.
+    // Source: sums by hand. Orders 1 to 30 of modulus 1/k⁴ leave beyond order 3 the sum of the rest,
+    // and what is guessed of orders beyond 30 from the last sixteen: more than there is.
     #[test]
     fn tails_are_the_sums_beyond() {
-        let set = HarmonicSet::all(3);
-        let series = [7.0, 4.0, 0.0, 0.0, 3.0, 0.3, 0.4];
-        let mut tails = vec![0.0; 4];
-        add_tails(&set, &series, &mut tails);
-        let whole = 25.25_f64.sqrt();
-        for (tail, exact) in tails.iter().zip([7.5, 3.5, 0.5, 0.0]) {
-            assert!((tail - exact / whole).abs() < 1e-15);
+        let set = HarmonicSet::all(30);
+        let term = |k: i32| f64::from(k).powi(-4);
+        let mut series = vec![7.0; set.coefficients()];
+        for (order, place) in set.places().skip(1) {
+            let size = (order as f64).powi(-4);
+            (series[place], series[place + 1]) = (0.6 * size, -0.8 * size);
         }
+        let mut tails = vec![0.0; 31];
+        add_tails(&set, &series, &mut tails);
+        let whole = (1..=30).map(|k| term(k).powi(2)).sum::<f64>().sqrt();
+        let seen: f64 = (4..=30).map(term).sum();
+        let guessed: f64 = 15.0 / 16.0 * (15..=30).map(term).sum::<f64>();
+        assert!((tails[3] * whole - seen - guessed).abs() < 1e-15);
+        let unseen: f64 = (31..10_000).map(term).sum();
+        assert!(tails[30] * whole > unseen && tails[30] * whole < 20.0 * unseen);
     }
 }
