@@ -4,8 +4,9 @@
 //! to torques at these connections, taken at a few frequencies, span a space in which mass, damping and
 //! stiffness keep their form (Galerkin), and the receptance of what is left is that of the whole line at
 //! these frequencies. More are added where the two differ most, until they agree to [`AGREEMENT`] at
-//! all frequencies up to twice those of the orbit. Modes that the connections cannot be told to move by then are
-//! left out with their multipliers, which are those of the linear line. Source: A. Antoulas, C.
+//! all frequencies up to twice those of the orbit. Modes that the connections do not move are
+//! left out with their multipliers, which are those of the linear line; modes above these
+//! frequencies stand for many and are rough. Source: A. Antoulas, C.
 //! Beattie, S. Gugercin, *Interpolatory Methods for Model Reduction* (2020), chapters 3 and 8.
 
 use halfshaft_dynamics::EquationsOfMotion;
@@ -82,7 +83,7 @@ fn reduce(equations: &EquationsOfMotion, nonlinear: &[usize], top: f64) -> Optio
     let moved = moved?;
     let mut basis = Basis::new(equations);
     let mut next: Vec<usize> = (0..4).map(|k| (2 * k + 1) * COMPARED / 8).collect();
-    let most = equations.groups() / 2;
+    let most = 2 * equations.groups() / 3;
     loop {
         for at in &next {
             for angles in &moved[*at].angles {
@@ -97,15 +98,37 @@ fn reduce(equations: &EquationsOfMotion, nonlinear: &[usize], top: f64) -> Optio
         let worst = (0..COMPARED)
             .map(|k| (k, apart(&receptance, &modes, &moved[k])))
             .max_by(|a, b| a.1.total_cmp(&b.1))?;
-        if worst.1 <= AGREEMENT {
-            return Some(modes);
-        }
         // Chosen before and still apart: as near as rounding lets it come.
-        if next == [worst.0] {
-            return (worst.1 <= 1e3 * AGREEMENT).then_some(modes);
+        let again = next == [worst.0];
+        if worst.1 <= AGREEMENT || (again && worst.1 <= 1e3 * AGREEMENT) {
+            return sharpened(&mut receptance, basis, &modes, (top, most)).or(Some(modes));
+        }
+        if again {
+            return None;
         }
         next = vec![worst.0];
     }
+}
+
+/// The modes once more with what torques move at the frequency of each: a mode that the connections
+/// hardly feel is told by that alone.
+fn sharpened(
+    receptance: &mut Receptance<'_>,
+    mut basis: Basis<'_>,
+    modes: &Modes,
+    (top, most): (f64, usize),
+) -> Option<Modes> {
+    let squares = modes.squares.iter().filter(|square| **square > 0.0);
+    for nu in squares.map(|square| square.sqrt()).filter(|nu| *nu <= top) {
+        for angles in receptance.moved(nu)?.angles {
+            basis.add(&angles.0);
+            basis.add(&angles.1);
+        }
+    }
+    if basis.vectors.len() > most {
+        return None;
+    }
+    projected(basis.equations, &modes.connections, &basis.vectors)
 }
 
 /// Difference of the receptances at one frequency, over their size.
