@@ -5,6 +5,7 @@
 //! until its motion repeats, and the branch through what it repeats is followed.
 
 use halfshaft_numerics::harmonics::HarmonicSet;
+use halfshaft_results::SpecialKind;
 
 use super::answer::Setting;
 use super::branches::{Collected, Job, NEAR, TracedBranch, on_branch};
@@ -37,6 +38,9 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
         }
     }
     for (from, to) in all.gaps(setting.range) {
+        if between_tori(all, (from, to)) {
+            continue;
+        }
         let mut runs = Runs::new(setting, job);
         for part in PLACES {
             let p = from + part * (to - from);
@@ -52,12 +56,28 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
     let missing = |p: &f64| !all.is_known_at(*p);
     all.lost = lost.into_iter().filter(missing).collect();
     for (from, to) in all.gaps(setting.range) {
+        let why = if between_tori(all, (from, to)) {
+            "at both ends a pair of multipliers leaves the unit circle, and the motion between does not \
+             repeat; see it with simulate"
+                .to_owned()
+        } else {
+            let periods = exact::MOST_MULTIPLE;
+            format!("where the line was let run its motion did not repeat within {periods} periods")
+        };
         all.messages.push(format!(
-            "no stable periodic response was found between {from:.6} and {to:.6} rad/s: where the line \
-             was let run its motion did not repeat within {} periods",
-            exact::MOST_MULTIPLE
+            "no stable periodic response was found between {from:.6} and {to:.6} rad/s: {why}"
         ));
     }
+}
+
+/// Whether a gap reaches from one Neimark-Sacker point to another: a motion on a torus fills it.
+fn between_tori(all: &Collected, (from, to): (f64, f64)) -> bool {
+    let specials = || all.branches.iter().flat_map(|branch| &branch.specials);
+    let torus = |p: f64| {
+        let mut tori = specials().filter(|special| special.kind == SpecialKind::NeimarkSacker);
+        tori.any(|special| (special.sample.p - p).abs() <= 1e-9 * p.abs())
+    };
+    torus(from) && torus(to)
 }
 
 /// Runs of the line.
