@@ -92,7 +92,7 @@ const MOST_ITERATIONS: usize = 8;
 const CONVERGED: f64 = 1e-8;
 /// On the way along a curve a first correction below this is the last: what it leaves is of the order
 /// of its square.
-const SMALL: f64 = 2e-6;
+const SMALL: f64 = 3e-7;
 /// Relative step of difference quotients by a parameter of the line.
 const PARAMETER_STEP: f64 = 1e-6;
 
