@@ -40,7 +40,7 @@ pub use pairs::Pair;
 pub use series::{LARGEST_DEGREE, RECIPROCALS, cosine_and_sine, product, square, value_and_slope};
 pub use settings::Settings;
 pub use system::{Expansion, LaneSystem, SeriesSystem};
-pub use task::{Finished, Plan, Task, Trajectory};
+pub use task::{Finished, Plan, Start, Starts, Task, Trajectory};
 
 use crate::error::{Error, has_length};
 use crate::observer::Observer;

@@ -70,3 +70,40 @@ pub struct Finished<M> {
     /// Why it ended before the task wanted it to; `None` if it did not.
     pub stop: Option<Stop>,
 }
+
+/// Where a trajectory starts and when it ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Time of the start.
+    pub time: f64,
+    /// State there.
+    pub state: Vec<f64>,
+    /// Parameters of the trajectory.
+    pub parameters: Vec<f64>,
+    /// Time of the end.
+    pub end: f64,
+}
+
+/// A list of trajectories that run from their starts to their ends, counting passages on the way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Starts(pub Vec<Start>);
+
+impl Task for Starts {
+    /// Number of passages.
+    type Memory = usize;
+
+    fn begin(&self, index: usize, trajectory: &mut Trajectory<'_>) -> (usize, Plan) {
+        let start = &self.0[index];
+        trajectory.time = start.time;
+        let copy = |to: &mut [f64], from: &[f64]| {
+            to.iter_mut().zip(from).for_each(|(to, value)| *to = *value);
+        };
+        copy(trajectory.state, &start.state);
+        copy(trajectory.parameters, &start.parameters);
+        (0, Plan::to(start.end))
+    }
+
+    fn passed(&self, count: &mut usize, _: &Passage) {
+        *count += 1;
+    }
+}
