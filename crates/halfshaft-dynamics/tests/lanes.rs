@@ -441,7 +441,7 @@ fn lines_of_one_build_with_other_values_move_side_by_side() {
     };
     let expected = run(1, Instructions::Plain);
     for instructions in Instructions::available() {
-        for lanes in [1, 4, 8, 16] {
+        for &lanes in instructions.widths() {
             assert_eq!(run(lanes, instructions), expected, "{instructions:?} {lanes}");
         }
     }

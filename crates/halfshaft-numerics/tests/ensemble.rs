@@ -116,7 +116,7 @@ fn lanes_instructions_threads_and_order_change_no_bit() {
         };
         let expected = run(way, &task, &plain);
         for instructions in Instructions::available() {
-            for lanes in [1, 4, 8, 16] {
+            for &lanes in instructions.widths() {
                 for threads in [1, 3] {
                     let settings = Settings {
                         lanes: Some(lanes),
@@ -319,7 +319,6 @@ fn nothing_is_begun_after_a_cancellation_and_wrong_numbers_are_refused() {
     assert!(none.is_empty());
     for wrong in [
         Settings { degree: 31, ..Settings::default() },
-        Settings { lanes: Some(3), ..Settings::default() },
         Settings { relative_tolerance: f64::NAN, ..Settings::default() },
         Settings { fixed_step: Some(0.0), ..Settings::default() },
     ] {

@@ -46,13 +46,23 @@ impl Instructions {
         [Self::Avx512, Self::Avx2].into_iter().find(|set| set.exists()).unwrap_or(Self::Plain)
     }
 
-    /// Numbers in a register of this set, or a bundle of registers that keeps the processor busy.
-    pub fn lanes(self) -> usize {
+    /// The numbers of lanes that there is code for: up to as many registers as keep the processor busy
+    /// while each result waits for the one before.
+    pub fn widths(self) -> &'static [usize] {
         match self {
-            Self::Plain => 4,
-            Self::Avx2 => 8,
-            Self::Avx512 => 16,
+            Self::Plain => &[1, 4],
+            Self::Avx2 => &[1, 4, 8, 16],
+            Self::Avx512 => &[8, 16, 32],
         }
+    }
+
+    /// These instructions, or narrower ones for few lanes, and the fewest lanes that hold so many
+    /// trajectories, or the most there are.
+    pub(super) fn for_lanes(self, wanted: usize) -> (Self, usize) {
+        let set = if self == Self::Avx512 && wanted < 8 { Self::Avx2 } else { self };
+        let widths = set.widths();
+        let fits = widths.iter().find(|width| **width >= wanted).or(widths.last());
+        (set, fits.copied().unwrap_or(1))
     }
 
     #[cfg(target_arch = "x86_64")]

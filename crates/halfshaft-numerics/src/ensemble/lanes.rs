@@ -1,4 +1,4 @@
-//! Several numbers that are computed with at once: 1, 4, 8 or 16 lanes.
+//! Several numbers that are computed with at once: 1, 4, 8, 16 or 32 lanes.
 //!
 //! Every operation is one IEEE operation per lane, and products with sums are fused only where
 //! [`Lanes::mul_add`] says so: the compiler never fuses by itself. So a lane's result does not depend
@@ -183,4 +183,5 @@ macro_rules! lanes {
 lanes!(One, 1, 8, "One lane.");
 lanes!(Four, 4, 32, "Four lanes: a register of AVX2.");
 lanes!(Eight, 8, 64, "Eight lanes: a register of AVX-512, two of AVX2.");
-lanes!(Sixteen, 16, 64, "Sixteen lanes: two registers of AVX-512.");
+lanes!(Sixteen, 16, 64, "Sixteen lanes: four registers of AVX2, two of AVX-512.");
+lanes!(ThirtyTwo, 32, 64, "Thirty-two lanes: four registers of AVX-512.");

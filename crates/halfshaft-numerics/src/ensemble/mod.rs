@@ -35,7 +35,7 @@ use std::sync::atomic::AtomicUsize;
 pub use bands::{Band, Passage};
 pub use functions::sin_cos;
 pub use instructions::Instructions;
-pub use lanes::{Eight, Four, Lanes, One, Sixteen};
+pub use lanes::{Eight, Four, Lanes, One, Sixteen, ThirtyTwo};
 pub use pairs::Pair;
 pub use series::{LARGEST_DEGREE, RECIPROCALS, cosine_and_sine, product, square, value_and_slope};
 pub use settings::Settings;
@@ -140,7 +140,7 @@ fn run<M: Method, T: Task>(
         done: AtomicUsize::new(0),
     };
     let instructions = settings.instructions.unwrap_or_else(Instructions::best);
-    let lanes = settings.lanes.unwrap_or_else(|| instructions.lanes().min(wide_enough(count)));
+    let (instructions, lanes) = instructions.for_lanes(settings.lanes.unwrap_or(count));
     let work = || with_lanes(method, &shared, instructions, lanes);
     let threads = threads(settings.threads).min(count.div_ceil(lanes)).max(1);
     let mut out: Vec<Option<Finished<T::Memory>>> = (0..count).map(|_| None).collect();
@@ -165,11 +165,6 @@ fn run<M: Method, T: Task>(
     Ok(out)
 }
 
-/// The fewest lanes that hold so many trajectories.
-fn wide_enough(count: usize) -> usize {
-    [1, 4, 8].into_iter().find(|lanes| *lanes >= count).unwrap_or(16)
-}
-
 fn threads(wanted: usize) -> usize {
     if wanted > 0 {
         return wanted;
@@ -183,10 +178,14 @@ fn with_lanes<M: Method, T: Task>(
     instructions: Instructions,
     lanes: usize,
 ) -> Numbered<T::Memory> {
-    match lanes {
-        1 => instructions.run(Batch::new(shared, method.stepper::<One>())),
-        4 => instructions.run(Batch::new(shared, method.stepper::<Four>())),
-        8 => instructions.run(Batch::new(shared, method.stepper::<Eight>())),
-        _ => instructions.run(Batch::new(shared, method.stepper::<Sixteen>())),
+    use Instructions::{Avx2, Avx512, Plain};
+    // Each pair is code of its own, so there are no more than serve.
+    match (instructions, lanes) {
+        (Plain, 1) | (Avx2, 1) => instructions.run(Batch::new(shared, method.stepper::<One>())),
+        (Plain | Avx2, 4) => instructions.run(Batch::new(shared, method.stepper::<Four>())),
+        (Avx2 | Avx512, 8) => instructions.run(Batch::new(shared, method.stepper::<Eight>())),
+        (Avx2 | Avx512, 16) => instructions.run(Batch::new(shared, method.stepper::<Sixteen>())),
+        (Avx512, 32) => instructions.run(Batch::new(shared, method.stepper::<ThirtyTwo>())),
+        _ => Plain.run(Batch::new(shared, method.stepper::<One>())),
     }
 }

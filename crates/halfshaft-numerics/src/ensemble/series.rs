@@ -21,15 +21,16 @@ pub const RECIPROCALS: [f64; LARGEST_DEGREE + 2] = {
 /// `Σ a_j b_{k - j}` over `j = 0..=k`.
 #[inline(always)]
 pub fn product<L: Lanes>(a: &[L], b: &[L]) -> L {
-    // Two sums, so that one is not waited for by the other. The newest coefficients come last.
+    // Two sums, so that one is not waited for by the other. The newest coefficients of `a` come last.
     let (mut first, mut second) = (L::splat(0.0), L::splat(0.0));
     let (pairs, backwards) = (a.chunks_exact(2), b.rchunks_exact(2));
-    if let ([a], [b]) = (pairs.remainder(), backwards.remainder()) {
-        first = *a * *b;
-    }
+    let rest = (pairs.remainder(), backwards.remainder());
     for (a, b) in pairs.zip(backwards) {
         first = a[0].mul_add(b[1], first);
         second = a[1].mul_add(b[0], second);
+    }
+    if let ([a], [b]) = rest {
+        first = a.mul_add(*b, first);
     }
     first + second
 }

@@ -28,7 +28,8 @@ pub struct Settings {
     pub degree: usize,
     /// Threads; 0, the default, for as many as the machine has.
     pub threads: usize,
-    /// Lanes: 1, 4, 8 or 16; `None`, the default, for what suits the instructions.
+    /// Lanes at least, up to what the instructions are made for ([`Instructions::widths`]); `None`, the
+    /// default, for as many as there are trajectories.
     pub lanes: Option<usize>,
     /// Instructions; `None`, the default, for the widest that the processor has.
     pub instructions: Option<Instructions>,
@@ -83,8 +84,6 @@ impl Settings {
             setting(name, length, length > 0.0, "must be positive")?;
         }
         let sensible = (LEAST_DEGREE..=LARGEST_DEGREE).contains(&self.degree);
-        setting("degree", self.degree as f64, sensible, "must lie from 4 to 30")?;
-        let lanes = self.lanes.unwrap_or(1);
-        setting("lanes", lanes as f64, [1, 4, 8, 16].contains(&lanes), "must be 1, 4, 8 or 16")
+        setting("degree", self.degree as f64, sensible, "must lie from 4 to 30")
     }
 }

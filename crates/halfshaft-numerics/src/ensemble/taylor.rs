@@ -61,6 +61,13 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
         }
     }
 
+    /// The binary logarithm of the tolerance of a component. (No closure: those are not always inlined,
+    /// and then compiled without the vector instructions.)
+    #[inline(always)]
+    fn scale(&self, value: L, absolute: f64) -> L {
+        rough_log2(value.abs().mul_add(L::splat(self.relative), L::splat(absolute)))
+    }
+
     /// The binary logarithm of the inverse of the longest step that the tolerances allow, and a number
     /// that is not finite where the series is not.
     #[inline(always)]
@@ -70,12 +77,8 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
         let mut inverse = L::splat(-1e3);
         let mut sum = L::splat(0.0);
         for (index, series) in self.coordinates.chunks_exact(self.terms).enumerate() {
-            let scale = |power: usize, absolute: f64| {
-                let size = series[power].abs();
-                rough_log2(size.mul_add(L::splat(self.relative), L::splat(absolute)))
-            };
-            let of_angle = scale(0, self.absolute[index]);
-            let of_rate = scale(1, self.absolute[count + index]);
+            let of_angle = self.scale(series[0], self.absolute[index]);
+            let of_rate = self.scale(series[1], self.absolute[count + index]);
             for (power, logarithm) in [degree, degree - 1].into_iter().zip(self.logarithms) {
                 let size = series[power].abs();
                 sum = sum + size;
