@@ -43,8 +43,9 @@ def one_core():
 class Side:
     """One way to integrate the oscillators."""
 
-    def __init__(self, name, tolerance, count, command, out):
-        self.name, self.tolerance, self.count, self.command, self.out = name, tolerance, count, command, out
+    def __init__(self, name, tolerance, count, command, out, option=""):
+        self.name, self.tolerance, self.count, self.out = name, tolerance, count, out
+        self.command = [*map(str, command), f"{option}{out}"]
         self.rates, self.states, self.remark = [], None, ""
 
     def once(self):
@@ -54,7 +55,7 @@ class Side:
         if self.remark:
             return
         try:
-            said = json.loads(quietly([*map(str, self.command), str(self.out)], self.name).splitlines()[-1])
+            said = json.loads(quietly(self.command, self.name).splitlines()[-1])
         except Failure as failure:
             self.remark = str(failure).strip().splitlines()[-1]
             return
@@ -68,10 +69,10 @@ def sides(program, python, chosen, work):
     out = work / "ends.bin"
     for degree, tolerance in ((20, 1e-8), (20, 1e-9), (20, 1e-10), (20, 1e-11), (20, 1e-13), (24, 1e-10)):
         command = [program, count, PERIODS, tolerance, f"degree={degree}"]
-        yield Side(f"halfshaft, degree {degree}", tolerance, count, command, f"out={out}")
-    yield Side("halfshaft, AVX2", 1e-10, count, [program, count, PERIODS, 1e-10, "instructions=avx2"], f"out={out}")
-    yield Side("halfshaft, one lane", 1e-10, count // 10,
-               [program, count // 10, PERIODS, 1e-10, "lanes=1"], f"out={out}")
+        yield Side(f"halfshaft, degree {degree}", tolerance, count, command, out, "out=")
+    command, few = [program, count, PERIODS, 1e-10, "instructions=avx2"], max(count // 10, 1)
+    yield Side("halfshaft, AVX2", 1e-10, count, command, out, "out=")
+    yield Side("halfshaft, one lane", 1e-10, few, [program, few, PERIODS, 1e-10, "lanes=1"], out, "out=")
     peers = chosen.peers.split(",")
     if "heyoka" in peers:
         for batch, wide, tolerance in ((8, 0, 1e-9), (8, 1, 1e-9), (16, 1, 1e-9), (8, 1, 1e-10), (16, 1, 1e-10),

@@ -363,7 +363,7 @@ fn backlash_is_the_exact_piecewise_linear_motion() {
         };
         let task = Listed(Starts(starts.iter().map(start).collect()));
         let found = by_series(&line, &task, starts.len(), &tight(), &Silent).expect("sound");
-        let half = 0.7853981633974483 / 2.0;
+        let half = PI / 8.0;
         let in_gap = if acts == "always" { 10.0 } else { 0.0 };
         for (start, found) in starts.iter().zip(found.iter().flatten()) {
             let (state, passages) = exact_backlash(*start, (4000.0, 10.0, half), in_gap, end);

@@ -257,7 +257,7 @@ impl<'e, T: Task, S: Stepper<L>, L: Lanes> Batch<'e, T, S, L> {
         let steps = self.steps.get(lane) as usize;
         self.finished.push((index, Finished { memory, time, state, steps, stop }));
         let done = self.shared.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done % TOLD_EVERY == 0 {
+        if done.is_multiple_of(TOLD_EVERY) {
             self.shared.observer.progress(done as f64 / self.shared.count as f64);
         }
     }

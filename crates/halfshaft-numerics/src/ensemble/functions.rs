@@ -1,6 +1,6 @@
 //! Functions over lanes, of plain arithmetic so that all processors give the same numbers.
 
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_2_PI, LN_2};
 
 use super::Lanes;
 
@@ -82,7 +82,7 @@ pub fn rough_exp2<L: Lanes>(x: L) -> L {
     let rounder = L::splat(ROUNDER);
     let shifted = x + rounder;
     let part = x - (shifted - rounder);
-    let mantissa = horner(&[1.0, 0.693_147, 0.240_227, 0.055_504], part);
+    let mantissa = horner(&[1.0, LN_2, 0.240_227, 0.055_504], part);
     mantissa.zip(shifted, |value, whole| {
         f64::from_bits(value.to_bits().wrapping_add(whole.to_bits() << 52))
     })

@@ -151,10 +151,10 @@ macro_rules! lanes {
             }
         }
 
-        lanes!(operator $name, $count, Add, add, +);
-        lanes!(operator $name, $count, Sub, sub, -);
-        lanes!(operator $name, $count, Mul, mul, *);
-        lanes!(operator $name, $count, Div, div, /);
+        lanes!(operator $name, $count, Add, add, +=);
+        lanes!(operator $name, $count, Sub, sub, -=);
+        lanes!(operator $name, $count, Mul, mul, *=);
+        lanes!(operator $name, $count, Div, div, /=);
 
         impl Neg for $name {
             type Output = Self;
@@ -172,7 +172,7 @@ macro_rules! lanes {
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
                 for lane in 0..$count {
-                    self.0[lane] = self.0[lane] $sign other.0[lane];
+                    self.0[lane] $sign other.0[lane];
                 }
                 self
             }

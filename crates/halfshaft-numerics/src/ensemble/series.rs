@@ -41,7 +41,7 @@ pub fn square<L: Lanes>(a: &[L]) -> L {
     let half = a.len() / 2;
     let twice = product(&a[..half], &a[a.len() - half..]);
     let twice = twice + twice;
-    if a.len() % 2 == 0 { twice } else { a[half].mul_add(a[half], twice) }
+    if a.len().is_multiple_of(2) { twice } else { a[half].mul_add(a[half], twice) }
 }
 
 /// Value and slope at `x` of a polynomial of ascending coefficients.
