@@ -84,7 +84,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (line, _) = read_model(Source::new("duffing.toml", LINE), &[])
         .map_err(|errors| errors.plain().to_string())?;
     let equations = EquationsOfMotion::new(&line)?;
-    let line = LaneLine::new(&equations)?;
+    let line = LaneLine::new(&equations);
     let starts = starts(&line, &equations, count, periods);
     let (clock, processor) = (Instant::now(), processor_seconds());
     let found = by_series(&line, &starts, count, &settings, &Silent)?;

@@ -1,6 +1,9 @@
 //! Ten thousand forced Duffing oscillators over 200 periods: rate, error and share of the processor's
 //! arithmetic that is used.
 
+// Rates without their errors would say nothing.
+#![allow(clippy::print_stdout)]
+
 #[path = "../tests/reference/lanes.rs"]
 mod lanes;
 #[path = "../tests/reference/mod.rs"]

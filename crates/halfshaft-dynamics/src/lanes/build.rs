@@ -33,14 +33,25 @@ pub(super) struct Shaft {
     pub(super) origin: usize,
     pub(super) damping: usize,
     pub(super) law: usize,
-    /// Parameters: the table of all pieces; none for a single one.
+    /// Parameters: the table of all pieces.
     pub(super) table: usize,
+    /// Parameters of dry friction, if there is any: its torque, the inverse of its speed.
+    pub(super) friction: Option<[usize; 2]>,
 }
 
+/// Helper series of dry friction: rate times its power, tangent, slope of the tangent.
+const FRICTION_HELPERS: usize = 3;
+
 impl Shaft {
-    /// Helper series: twist, torque and the partial results of the law.
+    /// Helper series: twist, torque, the partial results of the law, and friction.
     pub(super) fn helpers(&self) -> usize {
-        2 + match (self.degree, self.odd) {
+        let friction = if self.friction.is_some() { FRICTION_HELPERS } else { 0 };
+        2 + friction + self.law_helpers()
+    }
+
+    /// Helper series of the law alone.
+    pub(super) fn law_helpers(&self) -> usize {
+        match (self.degree, self.odd) {
             (0 | 1, _) => 0,
             (degree, true) => 1 + (degree - 1) / 2,
             (degree, false) => degree - 1,
@@ -115,15 +126,12 @@ impl Places {
 
 impl LaneLine {
     /// The build of a line.
-    ///
-    /// # Errors
-    /// [`LaneError::Friction`].
-    pub fn new(equations: &EquationsOfMotion) -> Result<Self, LaneError> {
+    pub fn new(equations: &EquationsOfMotion) -> Self {
         let mut places = Places::default();
         let coordinates = equations.groups();
         let mut shafts = Vec::new();
         for (index, connection) in equations.connections.iter().enumerate() {
-            shafts.push(shaft(equations, index, connection, &mut places)?);
+            shafts.push(shaft(equations, index, connection, &mut places));
         }
         let tones = tones(&equations.excitation.sources, &mut places);
         let rows = rows(equations, &shafts, &tones, &mut places);
@@ -133,7 +141,7 @@ impl LaneLine {
             let Shaft { helper, ends: [lower, upper], .. } = shafts[*index];
             Band { series: coordinates + helper, lower, upper }
         };
-        Ok(Self {
+        Self {
             bands: watched.iter().map(band).collect(),
             watched,
             rows,
@@ -141,21 +149,24 @@ impl LaneLine {
             tones,
             helpers: places.helpers,
             parameters: places.parameters,
-        })
+        }
     }
 
     /// Name-free check that another line has the same build, if with lower powers in its laws.
     pub(super) fn check(&self, other: &EquationsOfMotion) -> Result<(), LaneError> {
         let differ = |what| Err(LaneError::OtherBuild { what });
-        let own = Self::new(other)?;
+        let own = Self::new(other);
         if own.rows.len() != self.rows.len() || own.shafts.len() != self.shafts.len() {
             return differ("the number of inertias or connections");
         }
         let places = |line: &Self| -> Vec<_> {
-            line.shafts.iter().map(|shaft| (shaft.coordinate, shaft.pieces)).collect()
+            let place = |shaft: &Shaft| (shaft.coordinate, shaft.pieces, shaft.friction.is_some());
+            line.shafts.iter().map(place).collect()
         };
         if places(&own) != places(self) {
-            return differ("the places of their connections or the pieces of their laws");
+            return differ(
+                "the places of their connections, the pieces of their laws or dry friction",
+            );
         }
         let fits = |(own, all): (&Shaft, &Shaft)| own.degree <= all.degree && (own.odd || !all.odd);
         if !own.shafts.iter().zip(&self.shafts).all(fits) {
@@ -196,10 +207,7 @@ fn shaft(
     index: usize,
     connection: &Connection,
     places: &mut Places,
-) -> Result<Shaft, LaneError> {
-    if connection.friction.is_some() {
-        return Err(LaneError::Friction { connection: connection.name.clone() });
-    }
+) -> Shaft {
     let pieces = connection.law.pieces();
     let tree = &equations.network.tree;
     let coordinate = tree.iter().position(|edge| edge.shaft == index);
@@ -220,10 +228,11 @@ fn shaft(
         damping: places.parameters(1),
         law: places.parameters(degree + 1),
         table: 0,
+        friction: connection.friction.map(|_| [places.parameters(1), places.parameters(1)]),
     };
     shaft.helper = places.helpers(shaft.helpers());
     shaft.table = places.parameters(count * shaft.stride());
-    Ok(shaft)
+    shaft
 }
 
 /// Whether all pieces have odd powers of the distance from their origins only.

@@ -8,7 +8,8 @@
 //! x_i'' = b_i + s_i t + Σ_h g_ih cos(speed_h t + phase_h) - Σ_e a_ie T_e - Σ_j d_ij x_j'
 //! ```
 //!
-//! with the torque `T_e` of a connection: the present piece of its law along its twist, and its damping.
+//! with the torque `T_e` of a connection: the present piece of its law along its twist, its damping and
+//! its regularised friction.
 //! The build of a line ([`LaneLine`]) says which of these factors there are; their values are the
 //! parameters of a trajectory.
 //!
@@ -24,15 +25,10 @@ mod values;
 
 pub use build::LaneLine;
 
-/// Why a line cannot be integrated over lanes.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+/// Why a line cannot be integrated beside others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LaneError {
-    /// Regularised friction is not a piecewise polynomial.
-    #[error("{connection} has dry friction, which is not integrated over lanes")]
-    Friction {
-        /// Name of the connection.
-        connection: String,
-    },
     /// A trajectory's line has other parts than the one that was prepared.
     #[error("the lines of an ensemble differ in {what}, not only in values")]
     OtherBuild {

@@ -7,7 +7,7 @@
 //! (A. Griewank, A. Walther, *Evaluating Derivatives* (2008), chapter 13.)
 
 use halfshaft_numerics::ensemble::{
-    Band, Expansion, Lanes, RECIPROCALS, SeriesSystem, cosine_and_sine, product, square,
+    Band, Expansion, Lanes, RECIPROCALS, SeriesSystem, cosine_and_sine, product, square, tanh,
 };
 
 use super::build::{LaneLine, Row, Shaft};
@@ -125,12 +125,13 @@ fn twist<L: Lanes>(
 }
 
 /// One power of the torque of a connection, from its twist known to one power more: law by Horner's
-/// rule over series, and damping.
+/// rule over series, damping, friction.
 #[inline(always)]
 fn torque<L: Lanes>(shaft: &Shaft, parameters: &[L], series: &mut [L], terms: usize, power: usize) {
     let law = &parameters[shaft.law..=shaft.law + shaft.degree];
     let (twist, rest) = series.split_at_mut(terms);
-    let (torque, partial) = rest.split_at_mut(terms);
+    let (torque, rest) = rest.split_at_mut(terms);
+    let (partial, dry) = rest.split_at_mut(shaft.law_helpers() * terms);
     let along = match (shaft.degree, shaft.odd) {
         (0, _) => constant(law, 0, power),
         (1, _) => law[1].mul_add(twist[power], constant(law, 0, power)),
@@ -139,6 +140,28 @@ fn torque<L: Lanes>(shaft: &Shaft, parameters: &[L], series: &mut [L], terms: us
     };
     let rate = twist[power + 1] * L::splat((power + 1) as f64);
     torque[power] = parameters[shaft.damping].mul_add(rate, along);
+    if let Some([size, speed]) = shaft.friction {
+        let tangent = friction(rate * parameters[speed], dry, terms, power);
+        torque[power] = parameters[size].mul_add(tangent, torque[power]);
+    }
+}
+
+/// One power of `tanh w` from that of `w`: `k tanh_k = Σ i w_i (1 - tanh²)_{k-i}`.
+#[inline(always)]
+fn friction<L: Lanes>(w: L, series: &mut [L], terms: usize, power: usize) -> L {
+    let (scaled, rest) = series.split_at_mut(terms);
+    let (tangent, slope) = rest.split_at_mut(terms);
+    scaled[power] = w * L::splat(power as f64);
+    if power == 0 {
+        tangent[0] = tanh(w);
+        let one = L::splat(1.0);
+        slope[0] = (one - tangent[0]) * (one + tangent[0]);
+        return tangent[0];
+    }
+    let sum = product(&scaled[1..=power], &slope[..power]);
+    tangent[power] = sum * L::splat(RECIPROCALS[power]);
+    slope[power] = -square(&tangent[..=power]);
+    tangent[power]
 }
 
 /// A coefficient of the law as a series.

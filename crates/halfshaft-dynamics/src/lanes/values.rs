@@ -97,6 +97,11 @@ impl LaneLine {
                 values[*place] = factors.share(equations, index, *coordinate);
             }
             write_pieces(equations, index, shaft, &mut values);
+            let friction = &equations.connections[index].friction;
+            if let (Some([torque, speed]), Some(friction)) = (shaft.friction, friction) {
+                values[torque] = friction.torque_nm;
+                values[speed] = 1.0 / friction.speed_rad_s;
+            }
             go_to(shaft, 0, &mut values);
         }
         for row in 0..self.rows.len() {

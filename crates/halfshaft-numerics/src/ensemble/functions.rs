@@ -1,6 +1,6 @@
 //! Functions over lanes, of plain arithmetic so that all processors give the same numbers.
 
-use std::f64::consts::{FRAC_2_PI, LN_2};
+use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E};
 
 use super::Lanes;
 
@@ -53,6 +53,46 @@ pub fn sin_cos<L: Lanes>(angle: L) -> (L, L) {
     (first, second)
 }
 
+/// `ln 2`, as the sum of two numbers.
+const LN_2_HIGH: f64 = LN_2;
+const LN_2_LOW: f64 = 2.319_046_813_846_3e-17;
+
+/// Taylor coefficients of the exponential: up to `ln 2 / 2` the first one left out is below the rounding.
+const EXPONENTIAL: [f64; 14] = {
+    let mut out = [1.0; 14];
+    let mut k = 1;
+    while k < 14 {
+        out[k] = out[k - 1] / k as f64;
+        k += 1;
+    }
+    out
+};
+
+/// Beyond this a hyperbolic tangent is one.
+const LARGEST_TANH: f64 = 20.0;
+
+/// Hyperbolic tangent, within two units of the last place of one.
+#[inline(always)]
+pub fn tanh<L: Lanes>(x: L) -> L {
+    let x = x.larger(L::splat(-LARGEST_TANH)).smaller(L::splat(LARGEST_TANH));
+    let (rounder, double) = (L::splat(ROUNDER), x + x);
+    let shifted = double.mul_add(L::splat(LOG2_E), rounder);
+    let whole = shifted - rounder;
+    let rest = (-whole).mul_add(L::splat(LN_2_HIGH), double);
+    let rest = (-whole).mul_add(L::splat(LN_2_LOW), rest);
+    let power = scaled(horner(&EXPONENTIAL, rest), shifted);
+    let one = L::splat(1.0);
+    (power - one) / (power + one)
+}
+
+/// A number times two to the power of the integer in the lowest bits of another.
+#[inline(always)]
+fn scaled<L: Lanes>(value: L, bits: L) -> L {
+    value.zip(bits, |value, whole| {
+        f64::from_bits(value.to_bits().wrapping_add(whole.to_bits() << 52))
+    })
+}
+
 /// A polynomial of ascending coefficients.
 #[inline(always)]
 fn horner<L: Lanes, const N: usize>(coefficients: &[f64; N], x: L) -> L {
@@ -82,16 +122,13 @@ pub fn rough_exp2<L: Lanes>(x: L) -> L {
     let rounder = L::splat(ROUNDER);
     let shifted = x + rounder;
     let part = x - (shifted - rounder);
-    let mantissa = horner(&[1.0, LN_2, 0.240_227, 0.055_504], part);
-    mantissa.zip(shifted, |value, whole| {
-        f64::from_bits(value.to_bits().wrapping_add(whole.to_bits() << 52))
-    })
+    scaled(horner(&[1.0, LN_2, 0.240_227, 0.055_504], part), shifted)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::{Eight, Lanes};
-    use super::{rough_exp2, rough_log2, sin_cos};
+    use super::{rough_exp2, rough_log2, sin_cos, tanh};
 
     fn for_many(mut check: impl FnMut(Eight, usize)) {
         for block in 0..4000 {
@@ -112,6 +149,17 @@ mod tests {
             assert!((sin.get(lane) - exact.0).abs() < 2.5e-16, "{}", x.get(lane));
             assert!((cos.get(lane) - exact.1).abs() < 2.5e-16, "{}", x.get(lane));
         });
+    }
+
+    // Source: the standard library.
+    #[test]
+    fn hyperbolic_tangents_are_those_of_the_library() {
+        for_many(|x, lane| {
+            let x = x * Eight::splat(0.007);
+            let exact = x.get(lane).tanh();
+            assert!((tanh(x).get(lane) - exact).abs() < 4.5e-16, "{}", x.get(lane));
+        });
+        assert_eq!(tanh(Eight::splat(f64::INFINITY)).get(3), 1.0);
     }
 
     // Source: the standard library.

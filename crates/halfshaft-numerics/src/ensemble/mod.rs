@@ -33,7 +33,7 @@ mod taylor;
 use std::sync::atomic::AtomicUsize;
 
 pub use bands::{Band, Passage};
-pub use functions::sin_cos;
+pub use functions::{sin_cos, tanh};
 pub use instructions::Instructions;
 pub use lanes::{Eight, Four, Lanes, One, Sixteen, ThirtyTwo};
 pub use pairs::Pair;
