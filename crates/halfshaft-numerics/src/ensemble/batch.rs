@@ -4,48 +4,13 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::instructions::Job;
-use super::{Finished, Lanes, Passage, Plan, Task, Trajectory};
+use super::stepper::Stepper;
+use super::{Finished, Lanes, Plan, Task, Trajectory};
 use crate::observer::Observer;
 use crate::ode::Stop;
 
 /// Progress is told after so many trajectories.
 const TOLD_EVERY: usize = 64;
-
-/// A method that steps all lanes at once.
-pub(super) trait Stepper<L: Lanes> {
-    /// Whether [`Stepper::inside`] knows the state inside a step; else a step ends at every look.
-    const LOOKS_INSIDE: bool;
-
-    fn dimension(&self) -> usize;
-    fn parameters(&self) -> usize;
-
-    /// The times of the lanes.
-    fn time(&self) -> L;
-
-    /// Puts a trajectory into a lane.
-    fn set(&mut self, lane: usize, time: f64, state: &[f64], parameters: &[f64]);
-
-    /// Reads the trajectory of a lane.
-    fn get(&self, lane: usize, state: &mut [f64], parameters: &mut [f64]);
-
-    /// One step of every lane towards its goal, never past it, and exactly to it in the end. Returns
-    /// zero for lanes that could be stepped, one for those whose step is too small, two for those that
-    /// are not finite.
-    fn step(&mut self, goal: L) -> L;
-
-    /// The states at times within the last steps.
-    fn inside(&mut self, time: L, state: &mut [L]);
-
-    /// The passages at the ends of the last steps.
-    fn passes(&self) -> &[Pass];
-}
-
-/// A passage of one lane.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pass {
-    pub(super) lane: usize,
-    pub(super) passage: Passage,
-}
 
 /// What all threads share.
 pub(super) struct Shared<'e, T> {
@@ -220,15 +185,12 @@ impl<'e, T: Task, S: Stepper<L>, L: Lanes> Batch<'e, T, S, L> {
                 continue;
             }
             self.stepper.get(lane, &mut self.state, &mut self.parameters);
-            let finite = self.state.iter().all(|value| value.is_finite());
-            let stop = if lost > 1.0 || !finite {
-                Some(Stop::NonFinite { time })
-            } else if arrives {
-                None
-            } else if lost > 0.0 {
-                Some(Stop::StepTooSmall { time, step: 0.0 })
-            } else {
-                Some(Stop::StepLimit { time, limit })
+            let finite = lost <= 1.0 && self.state.iter().all(|value| value.is_finite());
+            let stop = match (finite, arrives, lost > 0.0) {
+                (false, ..) => Some(Stop::NonFinite { time }),
+                (true, true, _) => None,
+                (true, false, true) => Some(Stop::StepTooSmall { time, step: 0.0 }),
+                (true, false, false) => Some(Stop::StepLimit { time, limit }),
             };
             let (state, parameters) = (&mut self.state[..], &mut self.parameters[..]);
             let mut trajectory = Trajectory { time, state, parameters };

@@ -15,7 +15,7 @@
 //! | `lanes`, `functions`, `instructions` | arithmetic on lanes, sines and powers, vector instructions |
 //! | `series`, `taylor`, `bands` | Taylor series, their steps, changes of the equations |
 //! | `runge_kutta`, `pairs` | Runge-Kutta steps, their coefficients |
-//! | `batch`, `task`, `settings` | refilling of lanes, what is asked, numbers |
+//! | `batch`, `stepper`, `task`, `settings` | refilling of lanes, what is asked, numbers |
 
 mod bands;
 mod batch;
@@ -26,6 +26,7 @@ mod pairs;
 mod runge_kutta;
 mod series;
 mod settings;
+mod stepper;
 mod system;
 mod task;
 mod taylor;
@@ -44,8 +45,9 @@ pub use task::{Finished, Plan, Start, Starts, Task, Trajectory};
 
 use crate::error::{Error, has_length};
 use crate::observer::Observer;
-use batch::{Batch, Numbered, Shared, Stepper};
+use batch::{Batch, Numbered, Shared};
 use runge_kutta::RungeKutta;
+use stepper::Stepper;
 use taylor::Taylor;
 
 /// Runs trajectories 0 to `count - 1` of a task by Taylor series, in order of their numbers;

@@ -2,9 +2,9 @@
 
 use std::marker::PhantomData;
 
-use super::batch::{Pass, Stepper};
 use super::functions::{rough_exp2, rough_log2};
 use super::pairs::{Coefficients, LARGEST_STAGES, weighted};
+use super::stepper::{Pass, Stepper};
 use super::{LaneSystem, Lanes, Settings};
 
 /// A step that would leave less than this share of itself to the goal is stretched to reach it.
@@ -167,12 +167,8 @@ impl<Y: LaneSystem, P: Coefficients, L: Lanes> Stepper<L> for RungeKutta<'_, Y, 
         self.time.set(lane, time);
         self.state.iter_mut().zip(state).for_each(|(to, value)| to.set(lane, *value));
         self.parameters.iter_mut().zip(parameters).for_each(|(to, value)| to.set(lane, *value));
-        self.next.set(lane, if self.fixed { self.largest_step } else { 0.0 });
+        self.next.set(lane, 0.0);
         self.fresh = true;
-        if self.fixed {
-            // The step is known, the derivative is not.
-            self.next.set(lane, 0.0);
-        }
     }
 
     fn get(&self, lane: usize, state: &mut [f64], parameters: &mut [f64]) {

@@ -5,9 +5,9 @@
 //! (2005) 99).
 
 use super::bands::{Entered, Exit, Passage, exit, may_leave};
-use super::batch::{Pass, Stepper};
 use super::functions::{rough_exp2, rough_log2};
 use super::series::value_and_slope;
+use super::stepper::{Pass, Stepper};
 use super::{Expansion, LARGEST_DEGREE, Lanes, RECIPROCALS, SeriesSystem, Settings};
 
 /// A step that would leave less than this share of itself to the goal is stretched to reach it.
@@ -89,6 +89,45 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
             }
         }
         (inverse, sum)
+    }
+
+    /// The series about the present time.
+    #[inline(always)]
+    fn expand(&mut self) {
+        let count = self.absolute.len() / 2;
+        for (index, series) in self.coordinates.chunks_exact_mut(self.terms).enumerate() {
+            series[0] = self.state[index];
+            series[1] = self.state[count + index];
+        }
+        self.system.expand(&mut Expansion {
+            terms: self.terms,
+            time: self.time,
+            parameters: &self.parameters,
+            coordinates: &mut self.coordinates,
+            helpers: &mut self.helpers,
+        });
+    }
+
+    /// One for lanes whose step is lost in the rounding of the time, two for those whose series are not
+    /// finite, zero for the others.
+    #[inline(always)]
+    fn lost(&self, reach: L, check: L) -> L {
+        let least = self.time.abs() * L::splat(LEAST_SHARE);
+        let longer = |reach: f64, least: f64| reach > least;
+        let small = reach.select(least, longer, L::splat(0.0), L::splat(1.0));
+        let infinite = L::splat(f64::INFINITY);
+        check.select(infinite, |check, limit| check < limit, small, L::splat(2.0))
+    }
+
+    /// The states at the ends of the steps.
+    #[inline(always)]
+    fn advance(&mut self, length: L) {
+        let count = self.absolute.len() / 2;
+        for (index, series) in self.coordinates.chunks_exact(self.terms).enumerate() {
+            let (value, slope) = value_and_slope(series, length);
+            self.state[index] = value;
+            self.state[count + index] = slope;
+        }
     }
 
     /// Shortens the steps of lanes that leave a band.
@@ -187,18 +226,7 @@ impl<Y: SeriesSystem, L: Lanes> Stepper<L> for Taylor<'_, Y, L> {
 
     #[inline(always)]
     fn step(&mut self, goal: L) -> L {
-        let count = self.absolute.len() / 2;
-        for (index, series) in self.coordinates.chunks_exact_mut(self.terms).enumerate() {
-            series[0] = self.state[index];
-            series[1] = self.state[count + index];
-        }
-        self.system.expand(&mut Expansion {
-            terms: self.terms,
-            time: self.time,
-            parameters: &self.parameters,
-            coordinates: &mut self.coordinates,
-            helpers: &mut self.helpers,
-        });
+        self.expand();
         let (inverse, check) = self.reach();
         let largest = L::splat(self.largest_step);
         let reach = if self.fixed { largest } else { rough_exp2(-inverse).smaller(largest) };
@@ -206,12 +234,7 @@ impl<Y: SeriesSystem, L: Lanes> Stepper<L> for Taylor<'_, Y, L> {
         let lands = |remaining: f64, reach: f64| remaining <= STRETCH * reach;
         let mut end = remaining.select(reach, lands, goal, self.time + reach);
         let mut length = end - self.time;
-        // Not finite, or lost in the rounding of the time.
-        let least = self.time.abs() * L::splat(LEAST_SHARE);
-        let sound = |reach: f64, least: f64| reach > least;
-        let sound = reach.select(least, sound, L::splat(0.0), L::splat(1.0));
-        let infinite = L::splat(f64::INFINITY);
-        let lost = check.select(infinite, |check, limit| check < limit, sound, L::splat(2.0));
+        let lost = self.lost(reach, check);
         self.passes.clear();
         if !self.system.bands().is_empty() {
             if self.any_may_leave(length) {
@@ -220,11 +243,7 @@ impl<Y: SeriesSystem, L: Lanes> Stepper<L> for Taylor<'_, Y, L> {
                 self.entered.fill(None);
             }
         }
-        for (index, series) in self.coordinates.chunks_exact(self.terms).enumerate() {
-            let (value, slope) = value_and_slope(series, length);
-            self.state[index] = value;
-            self.state[count + index] = slope;
-        }
+        self.advance(length);
         self.from = self.time;
         self.time = end;
         if !self.passes.is_empty() {
