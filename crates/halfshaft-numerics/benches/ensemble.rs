@@ -9,6 +9,8 @@ mod lanes;
 #[path = "../tests/reference/mod.rs"]
 mod reference;
 
+use std::hint::black_box;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -52,51 +54,46 @@ fn operations(degree: usize) -> f64 {
     products + 12.0 * powers + 5.0 * degree as f64 + 4.0 * (degree + 1) as f64 + 100.0
 }
 
-/// Operations a second that a chain of nothing but fused multiply-adds on registers reaches, on one core.
-fn peak() -> f64 {
-    use halfshaft_numerics::ensemble::{Expansion, Lanes, SeriesSystem};
+/// Multiply-adds on registers, in twelve sums that do not wait for each other.
+struct Sums {
+    rounds: usize,
+}
 
-    /// A system of which one expansion is many multiply-adds of 16 independent sums.
-    struct Peak;
+impl pulp::WithSimd for Sums {
+    /// Operations, and the sum of all so that they are really done.
+    type Output = (f64, f64);
 
-    const ROUNDS: usize = 20_000;
-
-    impl SeriesSystem for Peak {
-        fn coordinates(&self) -> usize {
-            1
-        }
-
-        fn parameters(&self) -> usize {
-            5
-        }
-
-        fn helpers(&self) -> usize {
-            0
-        }
-
-        #[inline(always)]
-        fn expand<L: Lanes>(&self, expansion: &mut Expansion<'_, L>) {
-            let factor = expansion.parameters[0];
-            let mut sums = [expansion.parameters[1]; 16];
-            for _ in 0..ROUNDS {
-                for sum in &mut sums {
-                    *sum = sum.mul_add(factor, factor);
-                }
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) -> (f64, f64) {
+        let factor = simd.splat_f64s(black_box(0.3));
+        let mut sums = [simd.splat_f64s(black_box(0.7)); 12];
+        for _ in 0..self.rounds {
+            for sum in &mut sums {
+                *sum = simd.mul_add_f64s(*sum, factor, factor);
             }
-            let total = sums.into_iter().fold(factor, |total, sum| total + sum);
-            expansion.coordinates[2..].fill(total * L::splat(0.0));
         }
+        let total = sums.iter().map(|sum| simd.reduce_sum_f64s(*sum)).sum();
+        ((2 * 12 * S::F64_LANES * self.rounds) as f64, total)
     }
+}
 
-    let lanes = if Instructions::best() == Instructions::Avx512 { 8 } else { 4 };
-    let task = ManyDuffing { periods: 1.0, ..ManyDuffing::drivelines(lanes) };
-    let fixed = Some(task.oscillators[0].0.period() / 200.0);
-    let settings =
-        Settings { threads: 1, lanes: Some(lanes), fixed_step: fixed, ..Settings::default() };
-    let start = Instant::now();
-    let found = by_series(&Peak, &task, lanes, &settings, &Silent).expect("sound settings");
-    let steps = found.iter().flatten().map(|found| found.steps).max().unwrap_or(0);
-    (2 * 16 * ROUNDS * lanes * steps) as f64 / start.elapsed().as_secs_f64()
+/// Operations a second that one core reaches with nothing but multiply-adds on registers.
+fn peak() -> f64 {
+    let before = processor_seconds();
+    let (operations, sum) = pulp::Arch::new().dispatch(Sums { rounds: 30_000_000 });
+    black_box(sum);
+    operations / (processor_seconds() - before)
+}
+
+/// Seconds of processor time of this thread; of the clock where the system does not tell.
+fn processor_seconds() -> f64 {
+    static START: OnceLock<Instant> = OnceLock::new();
+    let stat = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let first = stat.as_deref().and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    first.map_or_else(
+        || START.get_or_init(Instant::now).elapsed().as_secs_f64(),
+        |nanoseconds| nanoseconds * 1e-9,
+    )
 }
 
 fn rates(criterion: &mut Criterion) {
@@ -108,13 +105,13 @@ fn rates(criterion: &mut Criterion) {
     println!("multiply-adds on registers: {:.1} thousand million operations a second", peak * 1e-9);
     for tolerance in [1e-9, 1e-10] {
         let settings = Settings { threads: 1, ..Settings::with_tolerance(tolerance) };
-        let start = Instant::now();
+        let before = processor_seconds();
         let found = series(&task, &settings);
-        let seconds = start.elapsed().as_secs_f64();
+        let seconds = processor_seconds() - before;
         let (error, steps) = judge(&found, &exact);
         let rate = COUNT as f64 * steps * operations(settings.degree) / seconds;
         println!(
-            "series, tolerance {tolerance:e}: {:.0} a second, largest error {error:.1e}, {steps:.0} steps, \
+            "series, tolerance {tolerance:e}: {:.0} per second and core, largest error {error:.1e}, {steps:.0} steps, \
              {:.0} % of the peak",
             COUNT as f64 / seconds,
             100.0 * rate / peak
@@ -129,8 +126,14 @@ fn rates(criterion: &mut Criterion) {
     });
     for (pair, tolerance) in [(Pair::DormandPrince8, 1e-11), (Pair::Tsitouras5, 1e-7)] {
         let settings = Settings { threads: 1, ..Settings::with_tolerance(tolerance) };
-        let (error, steps) = judge(&stages(pair, &task, &settings), &exact);
-        println!("{pair:?}, tolerance {tolerance:e}: largest error {error:.1e}, {steps:.0} steps");
+        let before = processor_seconds();
+        let found = stages(pair, &task, &settings);
+        let rate = COUNT as f64 / (processor_seconds() - before);
+        let (error, steps) = judge(&found, &exact);
+        println!(
+            "{pair:?}, tolerance {tolerance:e}: {rate:.0} per second and core, largest error \
+             {error:.1e}, {steps:.0} steps"
+        );
         group.bench_function(format!("{pair:?}, tolerance {tolerance:e}, one thread"), |bencher| {
             bencher.iter(|| stages(pair, &task, &settings));
         });

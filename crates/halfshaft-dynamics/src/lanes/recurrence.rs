@@ -88,11 +88,13 @@ impl LaneLine {
         terms: usize,
         power: usize,
     ) -> L {
-        let mut drag = L::splat(0.0);
+        let mut sum = L::splat(0.0);
         for (of, place) in &row.drags {
-            drag = parameters[*place].mul_add(coordinates[of * terms + power + 1], drag);
+            sum = parameters[*place].mul_add(coordinates[of * terms + power + 1], sum);
         }
-        let mut sum = drag * L::splat((power + 1) as f64);
+        if !row.drags.is_empty() {
+            sum = sum * L::splat((power + 1) as f64);
+        }
         for (index, place) in &row.tones {
             let cosine = helpers[self.tones[*index].helper * terms + power];
             sum = parameters[*place].mul_add(cosine, sum);
