@@ -14,10 +14,12 @@
 //! - [`Excitation`]: torques over time.
 //! - [`Motion`]: the same as a first-order system for the integrators, in twists of the
 //!   spanning tree and the mean angle, with work and heat beside it.
+//! - [`lanes`]: many motions at once, by Taylor series over vector registers.
 
 mod equations;
 mod error;
 mod excitation;
+pub mod lanes;
 pub mod laws;
 mod linear;
 mod motion;

@@ -110,21 +110,10 @@ impl<'l> Motion<'l> {
         if !self.active.pulses {
             return;
         }
-        let groups = self.equations.groups();
-        let impulses = self.equations.excitation.impulses_at(t, groups);
-        if impulses.iter().all(|impulse| *impulse == 0.0) {
-            return;
-        }
+        let Some(jumps) = rate_jumps(self.equations, t) else { return };
         let before = self.energy(state);
-        let jumps: Vec<f64> =
-            impulses.iter().zip(&self.equations.inertia).map(|(p, m)| p / m).collect();
         let n = self.coordinates();
-        for (index, edge) in self.equations.network.tree.iter().enumerate() {
-            state[n + index] += self.equations.twist(edge.shaft, &jumps);
-        }
-        if let Some(rigid) = &self.equations.rigid {
-            state[2 * n - 1] += rigid.mean(&jumps);
-        }
+        state[n..2 * n].iter_mut().zip(jumps).for_each(|(rate, jump)| *rate += jump);
         if self.with_energy {
             state[2 * n] += self.energy(state) - before;
         }
@@ -227,6 +216,18 @@ impl<'l> Motion<'l> {
     }
 }
 
+/// Jumps of the coordinates' rates by the impulses at time `t`, if there are any.
+pub(crate) fn rate_jumps(equations: &EquationsOfMotion, t: f64) -> Option<Vec<f64>> {
+    let impulses = equations.excitation.impulses_at(t, equations.groups());
+    if impulses.iter().all(|impulse| *impulse == 0.0) {
+        return None;
+    }
+    let speeds: Vec<f64> = impulses.iter().zip(&equations.inertia).map(|(p, m)| p / m).collect();
+    let tree = equations.network.tree.iter();
+    let mean = equations.rigid.as_ref().map(|rigid| rigid.mean(&speeds));
+    Some(tree.map(|edge| equations.twist(edge.shaft, &speeds)).chain(mean).collect())
+}
+
 /// Torque of one source at time `t`.
 fn source_torque(source: &Source, phase: Phase, active: &Active, t: f64) -> f64 {
     let mut torque = if active.mean { source.mean } else { 0.0 };
@@ -261,7 +262,12 @@ fn pulse_torque(pulse: &Pulse, phase: Phase, t: f64) -> f64 {
 }
 
 /// Group values (angles or speeds) from the twists of the spanning tree and the mean.
-fn placed(equations: &EquationsOfMotion, twists: &[f64], mean: Option<f64>, out: &mut [f64]) {
+pub(crate) fn placed(
+    equations: &EquationsOfMotion,
+    twists: &[f64],
+    mean: Option<f64>,
+    out: &mut [f64],
+) {
     equations.group_angles(twists, out);
     if let (Some(rigid), Some(mean)) = (&equations.rigid, mean) {
         let shift = mean - rigid.mean(out);

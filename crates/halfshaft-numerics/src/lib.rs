@@ -1,8 +1,8 @@
 //! Mathematics of nonlinear oscillations that knows no driveline.
 //!
 //! Everything here speaks of numbers, functions and systems of equations; angles, torques and files
-//! belong to the crates above. Nothing prints, nothing starts threads, and nothing reachable from
-//! input panics. The tour, from one unknown to periodic orbits:
+//! belong to the crates above. Nothing prints, nothing but [`ensemble`] starts threads, and nothing
+//! reachable from input panics. The tour, from one unknown to periodic orbits:
 //!
 //! # One unknown
 //!
@@ -19,6 +19,7 @@
 //!
 //! [`ode`] integrates `y' = f(t, y)` by an explicit method of order 8 with dense output, through
 //! break times. [`ode::periodic`] finds periodic orbits with their Floquet multipliers.
+//! [`ensemble`] runs thousands of trajectories side by side in vector registers and on all cores.
 //!
 //! # Periodic signals
 //!
@@ -38,6 +39,7 @@ pub mod blocks;
 pub mod bracket;
 mod complex;
 pub mod dense;
+pub mod ensemble;
 mod error;
 pub mod fourier;
 pub mod harmonics;

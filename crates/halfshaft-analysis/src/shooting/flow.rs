@@ -3,10 +3,10 @@
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::dense::Matrix;
+use halfshaft_numerics::polynomial::first_exit;
 
 use super::columns::Columns;
 use super::coordinates::Coordinates;
-use super::crossing::first_exit;
 use super::motion::Motion;
 use super::series::Series;
 

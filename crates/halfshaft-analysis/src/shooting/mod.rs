@@ -8,13 +8,11 @@
 //! |---|---|
 //! | `series` | Taylor series of laws, friction, cosines |
 //! | `motion`, `columns` | the line and its variations about one time |
-//! | `crossing` | the first passage from one piece of a law to the next |
 //! | `coordinates`, `flow` | the state, and its motion over any time |
 //! | `orbit`, `waves` | periodic orbits and what they look like |
 
 mod columns;
 mod coordinates;
-mod crossing;
 mod flow;
 mod motion;
 mod orbit;

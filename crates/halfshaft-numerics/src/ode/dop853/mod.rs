@@ -22,7 +22,7 @@ mod first_step;
 mod lanes;
 mod norm;
 mod stages;
-mod tableau;
+pub(crate) mod tableau;
 #[cfg(test)]
 mod tableau_tests;
 

@@ -8,14 +8,14 @@
 //! A row lists only the coefficients that are not zero, each with its stage.
 
 /// A stage and its coefficient.
-pub(super) type Term = (usize, f64);
+pub(crate) type Term = (usize, f64);
 
 /// Stages of a step with dense output.
-pub(super) const STAGES: usize = 16;
+pub(crate) const STAGES: usize = 16;
 
 /// Times of the stages in the step. Stage 11 lies at the end of the step like stage 12; a table
 /// that has 0 there is right for autonomous systems only.
-pub(super) const C: [f64; STAGES] = [
+pub(crate) const C: [f64; STAGES] = [
     0.0,
     0.052_600_151_958_767_73,
     0.078_900_227_938_151_6,
@@ -35,24 +35,24 @@ pub(super) const C: [f64; STAGES] = [
 ];
 
 /// Row of stage 1.
-pub(super) const A1: [Term; 1] = [(0, 0.052_600_151_958_767_73)];
+pub(crate) const A1: [Term; 1] = [(0, 0.052_600_151_958_767_73)];
 
 /// Row of stage 2.
-pub(super) const A2: [Term; 2] = [(0, 0.019_725_056_984_537_9), (1, 0.059_175_170_953_613_7)];
+pub(crate) const A2: [Term; 2] = [(0, 0.019_725_056_984_537_9), (1, 0.059_175_170_953_613_7)];
 
 /// Row of stage 3.
-pub(super) const A3: [Term; 2] = [(0, 0.029_587_585_476_806_85), (2, 0.088_762_756_430_420_54)];
+pub(crate) const A3: [Term; 2] = [(0, 0.029_587_585_476_806_85), (2, 0.088_762_756_430_420_54)];
 
 /// Row of stage 4.
-pub(super) const A4: [Term; 3] =
+pub(crate) const A4: [Term; 3] =
     [(0, 0.241_365_134_159_266_7), (2, -0.884_549_479_328_286_1), (3, 0.924_834_003_261_792)];
 
 /// Row of stage 5.
-pub(super) const A5: [Term; 3] =
+pub(crate) const A5: [Term; 3] =
     [(0, 0.037_037_037_037_037_035), (3, 0.170_828_608_729_473_86), (4, 0.125_467_687_566_822_42)];
 
 /// Row of stage 6.
-pub(super) const A6: [Term; 4] = [
+pub(crate) const A6: [Term; 4] = [
     (0, 0.037_109_375),
     (3, 0.170_252_211_019_544_05),
     (4, 0.060_216_538_980_455_96),
@@ -60,7 +60,7 @@ pub(super) const A6: [Term; 4] = [
 ];
 
 /// Row of stage 7.
-pub(super) const A7: [Term; 5] = [
+pub(crate) const A7: [Term; 5] = [
     (0, 0.037_092_000_118_504_79),
     (3, 0.170_383_925_712_239_98),
     (4, 0.107_262_030_446_373_28),
@@ -69,7 +69,7 @@ pub(super) const A7: [Term; 5] = [
 ];
 
 /// Row of stage 8.
-pub(super) const A8: [Term; 6] = [
+pub(crate) const A8: [Term; 6] = [
     (0, 0.624_110_958_716_075_7),
     (3, -3.360_892_629_446_941_4),
     (4, -0.868_219_346_841_726),
@@ -79,7 +79,7 @@ pub(super) const A8: [Term; 6] = [
 ];
 
 /// Row of stage 9.
-pub(super) const A9: [Term; 7] = [
+pub(crate) const A9: [Term; 7] = [
     (0, 0.477_662_536_438_264_34),
     (3, -2.488_114_619_971_667_7),
     (4, -0.590_290_826_836_843),
@@ -90,7 +90,7 @@ pub(super) const A9: [Term; 7] = [
 ];
 
 /// Row of stage 10.
-pub(super) const A10: [Term; 8] = [
+pub(crate) const A10: [Term; 8] = [
     (0, -0.937_142_430_085_987_3),
     (3, 5.186_372_428_844_064),
     (4, 1.091_437_348_996_729_5),
@@ -102,7 +102,7 @@ pub(super) const A10: [Term; 8] = [
 ];
 
 /// Row of stage 11.
-pub(super) const A11: [Term; 9] = [
+pub(crate) const A11: [Term; 9] = [
     (0, 2.273_310_147_516_538),
     (3, -10.534_495_466_737_25),
     (4, -2.000_872_058_224_862_5),
@@ -115,7 +115,7 @@ pub(super) const A11: [Term; 9] = [
 ];
 
 /// Weights of the solution of order 8.
-pub(super) const B: [Term; 8] = [
+pub(crate) const B: [Term; 8] = [
     (0, 0.054_293_734_116_568_765),
     (5, 4.450_312_892_752_409),
     (6, 1.891_517_899_314_500_3),
@@ -127,7 +127,7 @@ pub(super) const B: [Term; 8] = [
 ];
 
 /// Row of stage 13.
-pub(super) const A13: [Term; 8] = [
+pub(crate) const A13: [Term; 8] = [
     (0, 0.056_167_502_283_047_954),
     (6, 0.253_500_210_216_624_83),
     (7, -0.246_239_037_470_802_5),
@@ -139,7 +139,7 @@ pub(super) const A13: [Term; 8] = [
 ];
 
 /// Row of stage 14.
-pub(super) const A14: [Term; 8] = [
+pub(crate) const A14: [Term; 8] = [
     (0, 0.031_834_648_163_502_14),
     (5, 0.028_300_909_672_366_776),
     (6, 0.053_541_988_307_438_566),
@@ -151,7 +151,7 @@ pub(super) const A14: [Term; 8] = [
 ];
 
 /// Row of stage 15.
-pub(super) const A15: [Term; 8] = [
+pub(crate) const A15: [Term; 8] = [
     (0, -0.428_896_301_583_791_94),
     (5, -4.697_621_415_361_164),
     (6, 7.683_421_196_062_599),
@@ -163,7 +163,7 @@ pub(super) const A15: [Term; 8] = [
 ];
 
 /// Weights of the error estimate of order 5.
-pub(super) const E5: [Term; 8] = [
+pub(crate) const E5: [Term; 8] = [
     (0, 0.013_120_044_994_194_88),
     (5, -1.225_156_446_376_204_4),
     (6, -0.495_758_949_657_250_2),
@@ -175,11 +175,11 @@ pub(super) const E5: [Term; 8] = [
 ];
 
 /// Weights of the solution of order 3, subtracted from `B` for the second error estimate.
-pub(super) const B3: [Term; 3] =
+pub(crate) const B3: [Term; 3] =
     [(0, 0.244_094_488_188_976_4), (8, 0.733_846_688_281_611_8), (11, 0.022_058_823_529_411_766)];
 
 /// Weights of coefficient 4 of the dense output.
-pub(super) const D4: [Term; 12] = [
+pub(crate) const D4: [Term; 12] = [
     (0, -8.428_938_276_109_013),
     (5, 0.566_714_953_519_377_7),
     (6, -3.068_949_945_949_891_7),
@@ -195,7 +195,7 @@ pub(super) const D4: [Term; 12] = [
 ];
 
 /// Weights of coefficient 5 of the dense output.
-pub(super) const D5: [Term; 12] = [
+pub(crate) const D5: [Term; 12] = [
     (0, 10.427_508_642_579_134),
     (5, 242.283_491_775_258_17),
     (6, 165.200_451_717_270_28),
@@ -211,7 +211,7 @@ pub(super) const D5: [Term; 12] = [
 ];
 
 /// Weights of coefficient 6 of the dense output.
-pub(super) const D6: [Term; 12] = [
+pub(crate) const D6: [Term; 12] = [
     (0, 19.985_053_242_002_433),
     (5, -387.037_308_749_351_8),
     (6, -189.178_138_195_167_58),
@@ -227,7 +227,7 @@ pub(super) const D6: [Term; 12] = [
 ];
 
 /// Weights of coefficient 7 of the dense output.
-pub(super) const D7: [Term; 12] = [
+pub(crate) const D7: [Term; 12] = [
     (0, -25.693_933_462_703_75),
     (5, -154.189_748_690_236_43),
     (6, -231.529_379_176_045_5),

@@ -1,11 +1,9 @@
-//! The first time at which a Taylor polynomial leaves one side of a level, for certain.
+//! The first time at which a polynomial of time leaves one side of a level, for certain.
 //!
 //! In Bernstein form over an interval a polynomial lies within the range of its coefficients, and has
 //! at most as many roots as its coefficients change signs (G. Farin, *Curves and Surfaces for CAGD*,
 //! chapter 6). Halving the interval by de Casteljau's rule thus finds the first root or proves that
 //! there is none, however near to touching the motion comes.
-
-use super::series::Series;
 
 /// Coefficients of a polynomial over an interval, in Bernstein form.
 type Form = Vec<f64>;
@@ -15,15 +13,10 @@ const DEEPEST: usize = 42;
 /// Iterations of the search once there is one root for sure.
 const MOST_ITERATIONS: usize = 80;
 
-/// The first `t` in `[0, step]` from which on `sign · (x(t) - level)` is negative; `entered` says that
-/// it is zero at 0 and that this zero is not meant.
-pub(super) fn first_exit(
-    x: &Series,
-    step: f64,
-    level: f64,
-    sign: f64,
-    entered: bool,
-) -> Option<f64> {
+/// The first `t` in `[0, step]` from which on `sign · (x(t) - level)` is negative, with `x` given by its
+/// coefficients, ascending, at least two; `entered` says that it is zero at 0 and that this zero is not
+/// meant.
+pub fn first_exit(x: &[f64], step: f64, level: f64, sign: f64, entered: bool) -> Option<f64> {
     let skipped = usize::from(entered);
     let mut power = sign;
     let mut sum = 0.0;
@@ -37,7 +30,7 @@ pub(super) fn first_exit(
         power *= step;
     }
     // Most steps end here: nowhere near the level.
-    if scaled[0] > sum {
+    if scaled.first().is_none_or(|first| *first > sum) {
         return None;
     }
     let form = bernstein(&scaled);
@@ -151,11 +144,10 @@ fn halves(form: &Form) -> (Form, Form) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::series::DEGREE;
     use super::*;
 
-    fn series(coefficients: &[f64]) -> Series {
-        let mut out = [0.0; DEGREE + 1];
+    fn series(coefficients: &[f64]) -> [f64; 21] {
+        let mut out = [0.0; 21];
         out[..coefficients.len()].copy_from_slice(coefficients);
         out
     }
