@@ -14,9 +14,7 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use halfshaft_numerics::ensemble::{
-    Finished, Instructions, Pair, Settings, by_runge_kutta, by_series,
-};
+use halfshaft_numerics::ensemble::{Finished, Pair, Settings, by_runge_kutta, by_series};
 use halfshaft_numerics::observer::Silent;
 use lanes::{DuffingLanes, ManyDuffing};
 
