@@ -3,7 +3,7 @@
 
 use halfshaft_results::Branch;
 
-use crate::reading::{Reading, Sample, bounds};
+use crate::reading::{Reading, Sample, Stop, bounds, holds};
 use crate::words::{angle, capital, counted, number, plain};
 
 /// All of it as sentences.
@@ -48,15 +48,12 @@ fn number_of_responses(reading: &Reading<'_>) -> String {
 /// The largest number of responses that exist side by side, and between which values; those of
 /// longer periods are not counted.
 pub(crate) fn most_coexisting(reading: &Reading<'_>) -> Option<(usize, f64, f64)> {
-    let samples = reading.samples();
-    let own = |sample: &Sample| {
-        reading.result.branches.get(sample.branch).is_some_and(|branch| branch.periods <= 1)
-    };
+    let courses = reading.courses().into_iter().zip(&reading.result.branches);
+    let own = courses.filter(|(_, branch)| branch.periods <= 1);
     // Where pieces begin (+1) and end (-1); a piece lies between two neighbours of a branch.
     let mut changes: Vec<(f64, i64)> = Vec::new();
-    for pair in samples.windows(2).filter(|pair| pair[0].branch == pair[1].branch && own(&pair[0]))
-    {
-        let (low, high) = (pair[0].x.min(pair[1].x), pair[0].x.max(pair[1].x));
+    for pair in own.flat_map(|(course, _)| pieces(&course)) {
+        let (low, high) = span(&pair);
         if low < high {
             changes.extend([(low, 1), (high, -1)]);
         }
@@ -132,16 +129,27 @@ pub(crate) fn periods_words(periods: u32) -> String {
     }
 }
 
+/// The stretches between neighbouring stops of a branch.
+fn pieces(course: &[Stop]) -> Vec<[Stop; 2]> {
+    course.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// Where a stretch lies.
+fn span([from, to]: &[Stop; 2]) -> (f64, f64) {
+    (from.sample.x.min(to.sample.x), from.sample.x.max(to.sample.x))
+}
+
 /// Stretches of the range in which no response is stable.
 pub(crate) fn unstable_gaps(reading: &Reading<'_>) -> Vec<(f64, f64)> {
-    let samples = reading.samples();
-    let Some((low, high)) = bounds(samples.iter().map(|sample| sample.x)) else {
+    let courses = reading.courses();
+    let Some((low, high)) = bounds(courses.iter().flatten().map(|stop| stop.sample.x)) else {
         return Vec::new();
     };
-    let mut held: Vec<(f64, f64)> = samples
-        .windows(2)
-        .filter(|pair| pair[0].branch == pair[1].branch && pair[0].stable && pair[1].stable)
-        .map(|pair| (pair[0].x.min(pair[1].x), pair[0].x.max(pair[1].x)))
+    let mut held: Vec<(f64, f64)> = courses
+        .iter()
+        .flat_map(|course| pieces(course))
+        .filter(|[from, to]| holds(from, to))
+        .map(|pair| span(&pair))
         .collect();
     held.sort_by(|a, b| a.0.total_cmp(&b.0));
     let shortest = 1e-6 * (high - low);

@@ -15,6 +15,8 @@ mod special;
 mod stability;
 mod swing;
 
+#[cfg(test)]
+pub(crate) use coexisting::most_coexisting;
 pub(crate) use coexisting::{periods_words, unstable_gaps};
 
 /// The whole account.
