@@ -182,8 +182,7 @@ fn turns(values: &[f64]) -> bool {
 fn special(result: &FoldsResult) -> Vec<Points> {
     let symbol = escape(unit(&result.parameter_unit));
     let beside = |kind: SpecialKind, (_, y): (f64, f64)| {
-        let value = quantity(y, 6, &symbol);
-        if kind == SpecialKind::Cusp { format!("cusp {value}") } else { value }
+        format!("{} {}", marks::short(kind), quantity(y, 5, &symbol))
     };
     let points: Vec<&SpecialPoint> = result.special_points.iter().collect();
     marks::marked(&points, ("frequency", &result.parameter), beside)

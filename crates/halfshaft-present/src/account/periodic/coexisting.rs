@@ -4,7 +4,7 @@
 use halfshaft_results::Branch;
 
 use crate::reading::{Reading, Sample, Stop, bounds, holds};
-use crate::words::{angle, capital, counted, number, plain};
+use crate::words::{angle, capital, counted, list, number, plain};
 
 /// All of it as sentences.
 pub(super) fn told(reading: &Reading<'_>) -> Vec<String> {
@@ -14,13 +14,15 @@ pub(super) fn told(reading: &Reading<'_>) -> Vec<String> {
     for (index, branch) in branches.filter(|(_, branch)| special(branch)) {
         sentences.extend(set_apart(reading, index, branch));
     }
-    sentences.extend(unstable_gaps(reading).into_iter().map(|(from, to)| {
-        format!(
+    let gaps: Vec<String> =
+        unstable_gaps(reading).into_iter().map(|(from, to)| reading.x.between(from, to)).collect();
+    if !gaps.is_empty() {
+        sentences.push(format!(
             "No stable periodic response was found {}: what the line does there, `halfshaft simulate` \
              shows.",
-            reading.x.between(from, to)
-        )
-    }));
+            list(&gaps)
+        ));
+    }
     sentences
 }
 
@@ -152,7 +154,8 @@ pub(crate) fn unstable_gaps(reading: &Reading<'_>) -> Vec<(f64, f64)> {
         .map(|pair| span(&pair))
         .collect();
     held.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let shortest = 1e-6 * (high - low);
+    // A branch of twice the period does not begin exactly where the other one loses its stability.
+    let shortest = 2e-5 * (high - low);
     let mut gaps = Vec::new();
     let mut reached = low;
     for (from, to) in held.into_iter().chain([(high, high)]) {
