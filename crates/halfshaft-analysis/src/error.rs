@@ -97,9 +97,16 @@ impl AnalysisError {
             Self::MethodDoesNotFit { method: "averaged", .. } => {
                 "--method harmonic-balance takes any law"
             }
+            Self::MethodDoesNotFit { method: "first-harmonic", .. } => {
+                "--method harmonic-balance takes any law and any number of nonlinear shafts"
+            }
+            Self::MethodDoesNotFit { method: "harmonic-balance", .. } => {
+                "`halfshaft simulate` takes any line, one speed at a time"
+            }
             Self::MethodDoesNotFit { .. } => "--method full takes any line",
             Self::NoDisturbance => {
-                "give --initial \"half-shaft.twist=1 rad\", or a torque of the model a pulse"
+                "give a torque of the model a pulse, or ask `halfshaft shock` with \
+                 --initial \"SHAFT.twist=1 rad\", SHAFT being a shaft of the model"
             }
             Self::NoExcitation { .. } => {
                 "give a torque of the model an amplitude (and order) at a node that the mode moves"

@@ -102,3 +102,15 @@ fn a_record_that_runs_backwards_is_refused() {
     let errors = read(Verb::Simulate, &text, &line).expect_err("runs backwards");
     assert_eq!(errors[0].hint, "did you mean \"1..2\"?");
 }
+
+/// What follows a header without its brackets stands in the wrong table: only the header is told.
+#[test]
+fn a_broken_header_is_the_only_mistake() {
+    let text = embedded::example().text;
+    for broken in ["[shaft", "[[shaft]", "[[shaft"] {
+        let told = told_of(&text.replacen("[[shaft]]", broken, 1), &[]);
+        assert_eq!(told.len(), 1, "{broken}: {told:?}");
+        assert!(told[0].0.contains("unclosed"), "{broken}: {told:?}");
+        assert!(told[0].1.contains("[[shaft]]"), "{broken}: {told:?}");
+    }
+}

@@ -24,6 +24,8 @@ pub mod summary;
 
 mod account;
 mod findings;
+#[cfg(test)]
+mod made;
 mod reading;
 mod topology;
 mod words;

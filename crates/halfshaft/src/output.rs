@@ -102,7 +102,10 @@ impl Writer<'_> {
         let figures = figures_of(answer);
         if figures.is_empty() {
             let analysis = answer.header().analysis.clone();
-            return Err(OutputError::Nothing { analysis, what: "figure" });
+            return Err(match nothing_found(answer) {
+                Some(reason) => OutputError::NoFigure { analysis, reason },
+                None => OutputError::Nothing { analysis, what: "figure" },
+            });
         }
         let mut written = Vec::new();
         for (index, figure) in figures.iter().enumerate() {
@@ -222,6 +225,16 @@ fn beside(path: &Path, name: &str) -> PathBuf {
     path.with_file_name(format!("{stem}-{name}.{ending}"))
 }
 
+/// Why there is nothing to draw, where the analysis found nothing.
+fn nothing_found(answer: &Answer) -> Option<&'static str> {
+    match answer {
+        Answer::Resonance(result) if result.branches.is_empty() => {
+            Some("no periodic response was found in the range")
+        }
+        _ => None,
+    }
+}
+
 /// A writer that stops when the user asks to.
 struct Interruptible<'w> {
     file: &'w mut dyn Write,
@@ -242,5 +255,29 @@ impl Write for Interruptible<'_> {
 
     fn flush(&mut self) -> std::io::Result<()> {
         self.file.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use halfshaft_numerics::observer::Silent;
+    use halfshaft_results::Answer;
+
+    use super::write;
+    use crate::target::{Format, Target};
+
+    /// Source: a trial: an empty resonance has nothing to draw, and that is why.
+    #[test]
+    fn a_resonance_without_responses_says_why_it_has_no_figure() {
+        let empty = serde_json::json!({
+            "analysis": "resonance", "model": { "name": "m", "digest": "0" }, "settings": {},
+            "termination": { "reason": "completed", "detail": "" }, "version": "0",
+            "warnings": [], "assumptions": [], "branches": [], "scaling": [], "peaks": [],
+            "backbones": [], "jumps": [], "verification": [],
+        });
+        let answer: Answer = halfshaft_results::io::from_json(&empty.to_string()).unwrap();
+        let target = Target::File("nowhere.png".into(), Format::Png);
+        let told = write(&answer, &target, &Silent).unwrap_err().to_string();
+        assert!(told.ends_with("no periodic response was found in the range"), "{told}");
     }
 }

@@ -50,6 +50,14 @@ pub enum OutputError {
         /// What it lacks.
         what: &'static str,
     },
+    /// The answer has nothing to draw.
+    #[error("the answer of `{analysis}` has no figure to write: {reason}")]
+    NoFigure {
+        /// Name of the analysis.
+        analysis: String,
+        /// Why.
+        reason: &'static str,
+    },
     /// Writing failed; no half-written file stands under the name.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -80,7 +88,9 @@ impl OutputError {
                 "build it with `cargo build --release` (or `cargo install --path \
                  crates/halfshaft-parquet`), or write .json or .csv",
             ),
-            Self::Nothing { .. } => Some("--out answer.json holds everything"),
+            Self::Nothing { .. } | Self::NoFigure { .. } => {
+                Some("--out answer.json holds everything")
+            }
             Self::Folder { .. } => Some("name a folder that you may write in"),
             Self::Write(_) | Self::ParquetWriter { .. } | Self::Picture { .. } => None,
         }

@@ -64,6 +64,11 @@ pub enum Ask {
     /// its resonance, in microseconds; the scaling to x'' + omega_1² x + alpha x³ + beta x' = f
     /// cos((omega_1 + sigma) t) is printed with it).
     ///
+    /// Not searched: responses that repeat only after several periods of the excitation and that no
+    /// period doubling of a listed response gives birth to; they are found only where nothing else is
+    /// stable, or, for laws with kinks, where the line let run settles to one. Of responses whose
+    /// mirror symmetry is broken one is listed, not its mirrored twin.
+    ///
     /// With --parameter the speed stays and a number of the model changes instead.
     #[command(after_help = "Examples:
   halfshaft resonance my-line.toml --verify

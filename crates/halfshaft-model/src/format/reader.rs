@@ -53,6 +53,10 @@ pub(crate) fn read_document(
         number += 1;
         number <= before || !within_broken(&item.span)
     });
+    // After a broken header every key stands in the wrong table.
+    if broken.iter().any(|line| syntax::is_header(text, line)) {
+        found.items.truncate(before);
+    }
     checked.strays |= !broken.is_empty();
     checked.sound &= broken.is_empty();
     Some(checked)

@@ -20,12 +20,27 @@ pub(super) fn report(text: &str, errors: Vec<Error>, found: &mut Diagnostics) ->
         }
         let line = line_at(text, at);
         found.push(slip(text, &line).unwrap_or_else(|| {
+            let hint = if is_header(text, &line) {
+                "a table begins with [[name]], as in [[shaft]]"
+            } else {
+                "the file is TOML: key = value, texts in quotation marks"
+            };
             Diagnostic::error(error.span().unwrap_or(0..0), error.message().trim().to_owned())
-                .hint("the file is TOML: key = value, texts in quotation marks")
+                .hint(hint)
         }));
+        let ends = is_header(text, &line);
         lines.push(line);
+        // What follows a broken header stands in the wrong table and is read as such.
+        if ends {
+            break;
+        }
     }
     lines
+}
+
+/// Whether a line is meant to begin a table.
+pub(super) fn is_header(text: &str, line: &Range<usize>) -> bool {
+    text.get(line.clone()).is_some_and(|written| written.trim_start().starts_with('['))
 }
 
 /// The line that holds the byte at `offset`, without its end.

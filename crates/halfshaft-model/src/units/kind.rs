@@ -139,7 +139,7 @@ impl QuantityKind {
             Self::Torque => &["N·m", "kN·m", "lbf·ft"],
             Self::Angle => &["rad", "deg", "rev"],
             Self::Speed => &["rad/s", "rpm", "Hz"],
-            Self::Time => &["s", "ms"],
+            Self::Time => &["s", "ms", "min", "h"],
             Self::Impulse => &["N·m·s"],
             Self::Number => &["no unit"],
         }

@@ -14,6 +14,8 @@ pub enum QuantityError {
     NoNumber {
         /// The text as written.
         text: String,
+        /// What was asked for.
+        kind: QuantityKind,
     },
     /// The number is infinite or not a number.
     #[error("\"{text}\" is not a finite number")]
@@ -48,7 +50,7 @@ impl QuantityError {
     /// What to write instead where one of some words may stand as well.
     pub(crate) fn hint_or_word(&self, words: &[&str]) -> Option<String> {
         match self {
-            Self::NoNumber { text } if !words.is_empty() => {
+            Self::NoNumber { text, .. } if !words.is_empty() => {
                 let near = did_you_mean(text, words.iter().copied());
                 let words = words.join("\", \"");
                 near.or_else(|| Some(format!("write a number and a unit, or the word \"{words}\"")))
@@ -60,14 +62,19 @@ impl QuantityError {
     /// What to write instead.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::NoNumber { text } if text.matches(',').count() == 1 => {
+            Self::NoNumber { text, .. } if text.matches(',').count() == 1 => {
                 let right = text.trim().replace(',', ".");
                 Some(format!("decimals are written with a point: {right}"))
             }
-            Self::NoNumber { text } if text.contains(',') => {
+            Self::NoNumber { text, .. } if text.contains(',') => {
                 Some("decimals are written with a point: 0.5".to_owned())
             }
-            Self::NoNumber { .. } => Some("write a number and a unit, e.g. \"5 N·m\"".to_owned()),
+            Self::NoNumber { kind: QuantityKind::Number, .. } => {
+                Some("write a number without a unit, e.g. 2".to_owned())
+            }
+            Self::NoNumber { kind, .. } => {
+                Some(format!("write a number and a unit, e.g. \"5 {}\"", kind.si_unit()))
+            }
             Self::NotFinite { .. } => None,
             Self::NoUnit { text, kind } => Some(format!(
                 "write \"{} {}\", or the bare number {0} for {1}",
@@ -79,6 +86,10 @@ impl QuantityError {
             }
             Self::Unit(_) => {
                 Some("units look like N·m/rad, kg·m², N·m·s/rad, rpm, deg, ms".to_owned())
+            }
+            Self::WrongDimension { unit, kind: QuantityKind::Time, .. } if unit == "m" => {
+                let units = QuantityKind::Time.examples().join(", ");
+                Some(format!("minutes are written min; times are known in {units}"))
             }
             Self::WrongDimension { actual, kind, .. } => Some(dimension_hint(*actual, *kind)),
         }
@@ -136,13 +147,13 @@ pub(crate) fn unit_of(text: &str) -> Option<&str> {
 pub fn parse_quantity(text: &str, kind: QuantityKind) -> Result<f64, QuantityError> {
     let owned = || text.to_owned();
     let (value, unit) =
-        number::split(text).ok_or_else(|| QuantityError::NoNumber { text: owned() })?;
+        number::split(text).ok_or_else(|| QuantityError::NoNumber { text: owned(), kind })?;
     if !value.is_finite() {
         return Err(QuantityError::NotFinite { text: owned() });
     }
     let unit = unit.trim();
     if unit.starts_with(',') {
-        return Err(QuantityError::NoNumber { text: owned() });
+        return Err(QuantityError::NoNumber { text: owned(), kind });
     }
     if unit.is_empty() {
         // Zero is zero in every unit; any other number without one could be per degree.
@@ -247,6 +258,19 @@ mod tests {
             assert!(parse_quantity(text, QuantityKind::Number).is_err(), "{text}");
         }
         assert!(parse_quantity("3.5:1", QuantityKind::Torque).is_err());
+    }
+
+    // Source: a first-time user's trial; 5 min are 300 s.
+    #[test]
+    fn hints_fit_the_quantity_that_is_asked_for() {
+        let hint = |text, kind| parse_quantity(text, kind).unwrap_err().hint().unwrap_or_default();
+        assert_eq!(hint("two", QuantityKind::Number), "write a number without a unit, e.g. 2");
+        assert_eq!(hint("two", QuantityKind::Speed), "write a number and a unit, e.g. \"5 rad/s\"");
+        assert_eq!(
+            hint("5m", QuantityKind::Time),
+            "minutes are written min; times are known in s, ms, min, h"
+        );
+        assert_eq!(si("5min", QuantityKind::Time), 300.0);
     }
 
     #[test]

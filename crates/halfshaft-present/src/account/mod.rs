@@ -11,6 +11,7 @@ pub(crate) mod check;
 pub(crate) mod folds;
 pub(crate) mod head;
 pub(crate) mod history;
+pub(crate) mod jumps;
 pub(crate) mod levels;
 pub(crate) mod methods;
 pub(crate) mod modes;

@@ -1,11 +1,9 @@
 //! What is told of a resonance.
 
-use halfshaft_results::{
-    Branch, JumpSpeeds, ModeScaling, ResonanceResult, SpecialKind, SpecialPoint,
-};
+use halfshaft_results::{Branch, ModeScaling, ResonanceResult, SpecialKind, SpecialPoint};
 
 use super::{Account, Grid, check::minus, periodic, verification};
-use crate::words::{capital, column_words, frequency_words, number, plain, quantity};
+use crate::words::{capital, frequency_words, number, plain, quantity};
 
 /// The whole account.
 pub(crate) fn account(result: &ResonanceResult) -> Account {
@@ -16,7 +14,7 @@ pub(crate) fn account(result: &ResonanceResult) -> Account {
     for (index, scaling) in result.scaling.iter().enumerate() {
         account.text([peak(result, index), threshold(scaling)]);
     }
-    account.text(jumps(result));
+    account.text(super::jumps::told(result));
     for (index, scaling) in result.scaling.iter().enumerate() {
         account.figure(crate::figures::resonance::id(result, index));
         account.text([format!("Scaling: {}.", statement(scaling))]);
@@ -123,30 +121,6 @@ pub(crate) fn threshold(scaling: &ModeScaling) -> String {
 
 fn times_exactly(factor: f64) -> String {
     format!("{}\u{a0}times", number(factor, 4))
-}
-
-/// The jumps of slow sweeps, one sentence each.
-pub(crate) fn jumps(result: &ResonanceResult) -> Vec<String> {
-    result.jumps.iter().map(told).collect()
-}
-
-fn told(jump: &JumpSpeeds) -> String {
-    let shaft = column_words(&jump.channel).map_or("line", |channel| channel.owner);
-    let shaft = plain(shaft);
-    let speed =
-        format!("{} ({})", quantity(jump.rpm, 5, "rpm"), quantity(jump.frequency, 6, "rad/s"));
-    let before = number(jump.before, 4);
-    let sweep = plain(&jump.sweep);
-    match jump.after {
-        Some(after) => format!(
-            "Sweeping {sweep}, the twist of the {shaft} jumps at {speed} from ±{before} to ±{} rad.",
-            number(after, 4)
-        ),
-        None => format!(
-            "Sweeping {sweep}, the twist of the {shaft} leaves ±{before} rad at {speed}, and no other \
-             periodic response is there to take over."
-        ),
-    }
 }
 
 /// The coefficients of the oscillator that each exciting order sees.

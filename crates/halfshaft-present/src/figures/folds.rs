@@ -138,14 +138,30 @@ pub(super) fn areas(curves: &[(Vec<f64>, Vec<f64>)]) -> Vec<(Vec<f64>, Vec<f64>)
     for curve in curves.iter().filter(|curve| curve.1.len() > 2) {
         if turns(&curve.1) { areas.push(closed(curve)) } else { open.push(curve) }
     }
-    if let [(x, y), (x2, y2)] = open.as_slice() {
-        let back = |first: &[f64], second: &[f64]| {
-            first.iter().chain(second.iter().rev()).copied().collect::<Vec<f64>>()
-        };
-        // Both run the same way over the parameter.
-        areas.push((back(x, x2), back(y, y2)));
+    if let [first, second] = open.as_slice() {
+        areas.push(between(first, second));
     }
     areas
+}
+
+/// The area between two curves that run the same way over the parameter. Where one of them has left
+/// the speeds shown before the other ends, the border of the plane closes it, not a chord.
+fn between((x, y): &(Vec<f64>, Vec<f64>), (x2, y2): &(Vec<f64>, Vec<f64>)) -> (Vec<f64>, Vec<f64>) {
+    let all = || y.iter().chain(y2).copied();
+    let (low, high) = crate::reading::bounds(all()).unwrap_or((0.0, 1.0));
+    let middle = f64::midpoint(low, high);
+    let corner = |p: (f64, f64), q: (f64, f64)| {
+        let (short, long) =
+            if (p.1 - middle).abs() < (q.1 - middle).abs() { (p, q) } else { (q, p) };
+        ((short.1 - long.1).abs() > 1e-3 * (high - low)).then_some((short.0, long.1))
+    };
+    let mut line: Vec<(f64, f64)> = x.iter().copied().zip(y.iter().copied()).collect();
+    let back: Vec<(f64, f64)> = x2.iter().copied().zip(y2.iter().copied()).rev().collect();
+    line.extend(line.last().zip(back.first()).and_then(|(p, q)| corner(*p, *q)));
+    let start = line.first().copied();
+    line.extend(&back);
+    line.extend(back.last().zip(start.as_ref()).and_then(|(p, q)| corner(*p, *q)));
+    line.into_iter().unzip()
 }
 
 /// A curve through its cusp as an area. Where one branch has left the speeds shown before the
@@ -182,8 +198,7 @@ fn turns(values: &[f64]) -> bool {
 fn special(result: &FoldsResult) -> Vec<Points> {
     let symbol = escape(unit(&result.parameter_unit));
     let beside = |kind: SpecialKind, (_, y): (f64, f64)| {
-        let value = quantity(y, 6, &symbol);
-        if kind == SpecialKind::Cusp { format!("cusp {value}") } else { value }
+        format!("{} {}", marks::short(kind), quantity(y, 5, &symbol))
     };
     let points: Vec<&SpecialPoint> = result.special_points.iter().collect();
     marks::marked(&points, ("frequency", &result.parameter), beside)
@@ -210,4 +225,21 @@ fn range(result: &FoldsResult, curves: &[(Vec<f64>, Vec<f64>)]) -> Option<(f64, 
     let held =
         |value: f64, padded: f64| if value * padded < 0.0 || value == 0.0 { 0.0 } else { padded };
     Some((held(low, low - pad), held(high, high + pad)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::areas;
+
+    /// Oracle: by hand: one curve leaves the plane at speed 0 and parameter -1, the other goes on to
+    /// -4: what lies left of it down there is closed along the border of speed 0.
+    #[test]
+    fn a_curve_that_left_the_plane_is_closed_along_its_border() {
+        let long = (vec![2.0, 3.0, 4.0], vec![-4.0, 0.0, 4.0]);
+        let short = (vec![0.0, 3.0, 9.0], vec![-1.0, 0.0, 4.0]);
+        let found = areas(&[long, short]);
+        let x = vec![2.0, 3.0, 4.0, 9.0, 3.0, 0.0, 0.0];
+        let y = vec![-4.0, 0.0, 4.0, 4.0, 0.0, -1.0, -4.0];
+        assert_eq!(found, vec![(x, y)]);
+    }
 }

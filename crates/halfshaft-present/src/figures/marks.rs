@@ -6,7 +6,7 @@ use crate::figure::{Colour, Marker, Points};
 use crate::words::{number, special_words};
 
 /// Points of one kind that are named at most; more of them would cover each other.
-const MOST_NAMED: usize = 8;
+const MOST_NAMED: usize = 6;
 
 /// The kinds in the order of the legend. Ends are not marked: the curve shows them.
 const KINDS: [SpecialKind; 8] = [
@@ -59,13 +59,23 @@ pub(super) fn marked(
     KINDS.into_iter().filter_map(of).collect()
 }
 
-/// What stands beside a special point of a response curve: where it lies.
+/// The kind in few words, as there is room for beside a point.
+pub(super) fn short(kind: SpecialKind) -> &'static str {
+    match kind {
+        SpecialKind::NeimarkSacker => "Neimark-Sacker",
+        SpecialKind::IsolaBirth => "birth",
+        SpecialKind::IsolaMerger => "merger",
+        _ => special_words(kind),
+    }
+}
+
+/// What stands beside a special point of a response curve: its kind and where it
+/// lies.
 pub(super) fn beside(kind: SpecialKind, x: f64, unit: &str) -> String {
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     match kind {
-        SpecialKind::Fold => format!("fold {}{unit}", number(x, 6)),
         // Contact begins and ends often; the shape is enough.
-        SpecialKind::GrazingContact => String::new(),
-        _ => number(x, 6),
+        SpecialKind::GrazingContact | SpecialKind::End => String::new(),
+        _ => format!("{} {}{unit}", short(kind), number(x, 6)),
     }
 }

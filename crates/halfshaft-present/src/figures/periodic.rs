@@ -9,7 +9,7 @@ use super::{marks, resonance};
 use crate::account::periodic::periods_words;
 use crate::figure::{Axis, Colour, Curve, Figure, Item, Line, Panel, Reference, escape};
 use crate::reading::{Abscissa, Reading};
-use crate::words::unit;
+use crate::words::{number, unit};
 
 /// The figures, each with its id.
 pub(super) fn figures(result: &ResonanceResult) -> Vec<Figure> {
@@ -41,7 +41,7 @@ pub(super) fn panel(reading: &Reading<'_>) -> Panel {
     let column = reading.column();
     let x = reading.x.column.as_str();
     let mut panel = Panel::new(axis(&reading.x), column_axis(&column, "rad"));
-    panel = panel.with_all(result.backbones.iter().filter_map(|table| backbone(table, x, &column)));
+    panel = panel.with_all(backbones(result, x, &column));
     for branch in &result.branches {
         panel = panel.with_all(drawn(branch, (x, &column)));
     }
@@ -50,6 +50,35 @@ pub(super) fn panel(reading: &Reading<'_>) -> Panel {
         panel = panel.with_all(resonance::verified(result, None, x));
     }
     panel
+}
+
+/// The backbones, without that of the undamped line where it would be hidden under the other.
+fn backbones(result: &ResonanceResult, x: &str, y: &str) -> Vec<Curve> {
+    let drawn: Vec<(bool, Curve)> = result
+        .backbones
+        .iter()
+        .filter_map(|table| Some((table.column("energy").is_some(), backbone(table, x, y)?)))
+        .collect();
+    let hidden =
+        |curve: &Curve| drawn.iter().any(|(undamped, other)| !undamped && covers(other, curve));
+    drawn.iter().filter(|(free, curve)| !(*free && hidden(curve))).map(|(_, c)| c.clone()).collect()
+}
+
+/// Whether a curve lies on another one, to a hundredth of how far they go.
+fn covers(other: &Curve, curve: &Curve) -> bool {
+    let size = |of: fn(&Curve) -> &Vec<f64>| {
+        let most = [other, curve].into_iter().flat_map(of).copied().map(f64::abs);
+        most.fold(f64::MIN_POSITIVE, f64::max)
+    };
+    let (wide, high) = (size(|c| &c.x), size(|c| &c.y));
+    let top = other.y.iter().copied().fold(0.0, f64::max);
+    let near = |x: f64, y: f64| {
+        let places = other.x.iter().zip(&other.y);
+        places.into_iter().any(|(a, b)| ((x - a) / wide).hypot((y - b) / high) <= 0.01)
+    };
+    let places = curve.x.iter().zip(&curve.y).filter(|(_, y)| **y <= top);
+    let beyond = curve.y.iter().copied().fold(0.0, f64::max) > 1.02 * top;
+    !beyond && places.into_iter().all(|(x, y)| near(*x, *y))
 }
 
 /// A backbone: of the free line without damping, or where the response lags by a quarter turn.
@@ -114,6 +143,16 @@ fn special(reading: &Reading<'_>, column: &str) -> Vec<Item> {
     marks.into_iter().map(Item::from).collect()
 }
 
+/// Multipliers are shown up to this, so that the line at 1 can be read.
+const SHOWN: f64 = 2.0;
+
+/// The largest multiplier of all, where it is beyond what is shown.
+fn beyond(reading: &Reading<'_>) -> Option<f64> {
+    let branches = reading.result.branches.iter();
+    let all = branches.flat_map(|branch| branch.values("largest_multiplier")).copied();
+    all.filter(|value| value.is_finite()).reduce(f64::max).filter(|most| *most > SHOWN)
+}
+
 /// The largest multiplier over the same axis, against 1, where stability is lost.
 fn margin(reading: &Reading<'_>) -> Option<Panel> {
     let column = "largest_multiplier";
@@ -123,7 +162,11 @@ fn margin(reading: &Reading<'_>) -> Option<Panel> {
     }
     let x = reading.x.column.as_str();
     let limit = Reference::horizontal(1.0, "stability is lost", Colour::DANGER);
-    let mut panel = Panel::new(axis(&reading.x), Axis::new("Largest multiplier", "")).with(limit);
+    let mut y = Axis::new("Largest multiplier", "");
+    if beyond(reading).is_some() {
+        y = y.with_range(0.0, SHOWN);
+    }
+    let mut panel = Panel::new(axis(&reading.x), y).with(limit);
     panel.height_share = 0.55;
     for branch in &reading.result.branches {
         // The largest of several moduli has corners, which stay.
@@ -163,6 +206,13 @@ fn caption(reading: &Reading<'_>) -> String {
     if result.branches.iter().any(|branch| !branch.values("largest_multiplier").is_empty()) {
         text += " Below: the factor by which a small disturbance changes over one period; under 1 it \
                  dies out.";
+    }
+    if let Some(most) = beyond(reading) {
+        text += &format!(
+            " It is shown up to {}; the largest one is {}.",
+            number(SHOWN, 3),
+            number(most, 3)
+        );
     }
     text
 }

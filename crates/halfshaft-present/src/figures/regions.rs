@@ -41,18 +41,27 @@ pub(super) fn name(count: u32) -> String {
     match count {
         0 => "no response of the period of the excitation".to_owned(),
         1 => "one response: no jump".to_owned(),
+        MANY.. => format!("{} or more", counted(MANY as usize, "response", "responses")),
         count => counted(count as usize, "response", "responses"),
     }
 }
 
-fn colour(count: u32) -> Colour {
+/// Numbers from this one on share one colour and one name.
+const MANY: u32 = 8;
+
+/// The colour of a number of responses and how dense its tint is: each of the small numbers differs
+/// from all others.
+fn tint(count: u32) -> (Colour, f64) {
     match count {
-        0 => Colour::DANGER,
-        1 => Colour::SAFE,
-        2 | 3 => Colour::Sky,
-        4 | 5 => Colour::Orange,
-        6 | 7 => Colour::Purple,
-        _ => Colour::Grey,
+        0 => (Colour::Black, 0.16),
+        1 => (Colour::SAFE, 0.16),
+        2 => (Colour::Rgb(240, 228, 66), 0.35),
+        3 => (Colour::Sky, 0.18),
+        4 => (Colour::Orange, 0.2),
+        5 => (Colour::DANGER, 0.24),
+        6 => (Colour::Purple, 0.3),
+        7 => (Colour::PRIMARY, 0.36),
+        _ => (Colour::Grey, 0.45),
     }
 }
 
@@ -135,7 +144,8 @@ fn area(count: u32, rows: &[Vec<Run>], heights: &[f64], blocks: &[(usize, usize)
             y.push(f64::NAN);
         }
     }
-    Region { opacity: 0.16, ..Region::new(name(count), x, y, colour(count)) }
+    let (colour, opacity) = tint(count);
+    Region { opacity, ..Region::new(name(count), x, y, colour) }
 }
 
 /// Heights of the rows of a block, with its lower and upper edge.
@@ -181,7 +191,7 @@ fn roominess((row, _, run): &(usize, f64, &Run), rows: &[Vec<Run>]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{name, tints};
+    use super::{MANY, name, tint, tints};
     use halfshaft_results::ResponseCount;
 
     /// Oracle: by hand: three responses right of the line x = 1 + y, up to the border.
@@ -199,6 +209,16 @@ mod tests {
         assert_eq!(three.x[..8], [1.25, 1.25, 1.5, 1.5, 4.0, 4.0, 4.0, 4.0]);
         assert_eq!(three.y[..8], [0.25, 0.25, 0.5, 0.5, 0.5, 0.5, 0.25, 0.25]);
         assert_eq!(tints.labels.len(), 2);
+    }
+
+    /// Oracle: the promise: small numbers can be told apart, many never make a long legend.
+    #[test]
+    fn small_numbers_differ_and_large_ones_share() {
+        let looks: Vec<_> = (0..=MANY).map(|count| (tint(count), name(count))).collect();
+        for (at, one) in looks.iter().enumerate() {
+            assert!(looks[..at].iter().all(|other| other.0.0 != one.0.0 && other.1 != one.1));
+        }
+        assert_eq!((tint(MANY), name(MANY)), (tint(86), name(86)));
     }
 
     /// Oracle: the contract: a grid whose parts do not fit each other is no reason to fail.

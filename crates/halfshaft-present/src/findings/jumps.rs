@@ -4,20 +4,28 @@ use halfshaft_results::{ModeScaling, ReportResult, ResonanceResult};
 
 use super::reserve::{Threshold, damping, excitation};
 use super::{COMFORTABLE, Finding, Standing, periodic};
-use crate::account::resonance;
+use crate::account::jumps;
+use crate::reading::{Method, Reading};
 use crate::words::{column_words, number, percent, plain, quantity};
 
 /// The jumps, or the distance to them in excitation and in damping.
-pub(super) fn jumps(report: &ReportResult) -> Option<Finding> {
+pub(super) fn of(report: &ReportResult) -> Option<Finding> {
     let result = report.best_resonance()?;
     if let Some(finding) = gives_way_first(report, result) {
         return Some(finding);
     }
     if !result.jumps.is_empty() {
         let mut sentences = vec!["The response jumps.".to_owned()];
-        sentences.extend(resonance::jumps(result));
+        sentences.extend(jumps::told(result));
         sentences.extend(way_out(report, result));
-        return Some(Finding::new(Standing::Unsafe, "Jumps", sentences.join(" ")));
+        let standing = match one_harmonic_only(report, result) {
+            Some(remark) => {
+                sentences.push(remark);
+                Standing::Open
+            }
+            None => Standing::Unsafe,
+        };
+        return Some(Finding::new(standing, "Jumps", sentences.join(" ")));
     }
     if result.scaling.is_empty() {
         return Some(periodic::no_jump(report, result));
@@ -36,6 +44,16 @@ pub(super) fn jumps(report: &ReportResult) -> Option<Finding> {
     // A threshold below 1 without a jump in the range shown lies outside of it.
     let standing = if grows < COMFORTABLE { Standing::Watch } else { Standing::Safe };
     Some(Finding::new(standing, "Jumps", text))
+}
+
+/// What is to be said of jumps that rest on one harmonic where harmonic balance was asked and failed.
+fn one_harmonic_only(report: &ReportResult, result: &ResonanceResult) -> Option<String> {
+    let failed = report.missing.iter().any(|missing| missing.section == "resonance");
+    let method = Reading::of(result).method;
+    (failed && method != Method::HarmonicBalance).then(|| {
+        "That rests on one harmonic alone; harmonic balance, which would tell for sure, has no answer."
+            .to_owned()
+    })
 }
 
 /// How far the damping of a shaft would have to fall for a jump, to follow in a sentence.

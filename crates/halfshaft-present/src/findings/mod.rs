@@ -87,7 +87,8 @@ pub(crate) fn of(report: &ReportResult) -> Vec<Finding> {
     found.extend(stability::stability(report));
     found.extend(shock::shock(report));
     found.extend(vibration::vibration(report));
-    found.extend(jumps::jumps(report));
+    found.extend(jumps::of(report));
+    found.extend(periodic::unsettled(report));
     found.extend(methods::methods(report));
     found.extend(trust::trust(report));
     found.extend(scope(report));

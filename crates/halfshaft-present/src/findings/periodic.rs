@@ -5,7 +5,7 @@ use halfshaft_results::{ReportResult, ResonanceResult, StaticResult};
 
 use super::reserve::excitation;
 use super::{COMFORTABLE, Finding, Standing, jumps, rest_twist, vibration::room};
-use crate::account::periodic::unstable_gaps;
+use crate::account::periodic::{losses, unstable_gaps};
 use crate::reading::{Reading, bounds};
 use crate::words::{frequency_words, number, percent, plain, quantity};
 
@@ -103,6 +103,23 @@ fn swings(result: &ResonanceResult, statics: Option<&StaticResult>) -> Vec<Swing
     swings
 }
 
+/// Speeds at which no periodic response is stable: what the line does there is not known to be small.
+pub(super) fn unsettled(report: &ReportResult) -> Option<Finding> {
+    let reading = Reading::of(report.best_resonance()?);
+    let gaps = unstable_gaps(&reading);
+    if gaps.is_empty() {
+        return None;
+    }
+    let places: Vec<String> =
+        gaps.into_iter().map(|(from, to)| reading.x.between(from, to)).collect();
+    let mut sentences = vec![format!(
+        "No periodic response is stable {}: the line beats or wanders there.",
+        crate::words::list(&places)
+    )];
+    sentences.extend(losses(&reading));
+    Some(Finding::new(Standing::Unsafe, "Stability of the response", sentences.join(" ")))
+}
+
 /// What there is to say where no slow sweep jumps.
 pub(super) fn no_jump(report: &ReportResult, result: &ResonanceResult) -> Finding {
     let reading = Reading::of(result);
@@ -118,12 +135,6 @@ pub(super) fn no_jump(report: &ReportResult, result: &ResonanceResult) -> Findin
                 reading.x.between(from, to)
             ));
         }
-    }
-    for (from, to) in unstable_gaps(&reading) {
-        standing = Standing::Watch;
-        let place = reading.x.between(from, to);
-        sentences
-            .push(format!("No periodic response is stable {place}: the line beats or wanders."));
     }
     let channel = reading.channel.as_deref().unwrap_or_default();
     let shaft = channel.strip_suffix(".twist").unwrap_or(channel);

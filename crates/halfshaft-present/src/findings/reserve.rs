@@ -40,8 +40,8 @@ fn threshold(plane: &FoldsResult, folds: Side) -> Option<Threshold<'_>> {
         let kinds = [SpecialKind::Cusp, SpecialKind::IsolaBirth, SpecialKind::IsolaMerger];
         kinds.contains(&point.kind)
     });
+    let points = points.filter(|point| side(plane, point) == Some(folds));
     let values = points.filter_map(|point| point.value(&plane.parameter));
-    let values = values.filter(|value| side(plane, *value) == Some(folds));
     let begins = match folds {
         Side::Above => values.reduce(f64::min),
         Side::Below => values.reduce(f64::max),

@@ -21,7 +21,7 @@ pub(super) fn stability(report: &ReportResult) -> Vec<Finding> {
                 );
                 let stable = result.equilibrium.stable && mode.damping_ratio > 0.0;
                 let standing = if stable { Standing::Safe } else { Standing::Watch };
-                Finding::new(standing, "Stability", text)
+                Finding::new(standing, "Stability at rest", text)
             },
         ));
     }

@@ -141,11 +141,24 @@ impl Reporter<'_> {
                 self.report.missing.push(MissingSection {
                     section: section.to_owned(),
                     reason: error.to_string(),
-                    advice: error.advice(),
+                    advice: self.advice(&error),
                 });
                 None
             }
         }
+    }
+
+    /// What to try, by the names of the line that is asked about.
+    fn advice(&self, error: &AnalysisError) -> Option<String> {
+        let advice = error.advice()?;
+        let shaft = self.line.connection_names().next().unwrap_or("SHAFT");
+        Some(match error {
+            AnalysisError::NoDisturbance => format!(
+                "give a torque of the model a pulse, or ask `halfshaft shock --initial \
+                 \"{shaft}.twist=1 rad\"`"
+            ),
+            _ => advice,
+        })
     }
 
     /// Whether the user has stopped the report; then what is missing says so.

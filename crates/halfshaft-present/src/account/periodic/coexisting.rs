@@ -3,8 +3,8 @@
 
 use halfshaft_results::Branch;
 
-use crate::reading::{Reading, Sample, bounds};
-use crate::words::{angle, capital, counted, number, plain};
+use crate::reading::{Reading, Sample, Stop, bounds, holds};
+use crate::words::{angle, capital, counted, list, number, plain};
 
 /// All of it as sentences.
 pub(super) fn told(reading: &Reading<'_>) -> Vec<String> {
@@ -14,13 +14,15 @@ pub(super) fn told(reading: &Reading<'_>) -> Vec<String> {
     for (index, branch) in branches.filter(|(_, branch)| special(branch)) {
         sentences.extend(set_apart(reading, index, branch));
     }
-    sentences.extend(unstable_gaps(reading).into_iter().map(|(from, to)| {
-        format!(
+    let gaps: Vec<String> =
+        unstable_gaps(reading).into_iter().map(|(from, to)| reading.x.between(from, to)).collect();
+    if !gaps.is_empty() {
+        sentences.push(format!(
             "No stable periodic response was found {}: what the line does there, `halfshaft simulate` \
              shows.",
-            reading.x.between(from, to)
-        )
-    }));
+            list(&gaps)
+        ));
+    }
     sentences
 }
 
@@ -48,15 +50,12 @@ fn number_of_responses(reading: &Reading<'_>) -> String {
 /// The largest number of responses that exist side by side, and between which values; those of
 /// longer periods are not counted.
 pub(crate) fn most_coexisting(reading: &Reading<'_>) -> Option<(usize, f64, f64)> {
-    let samples = reading.samples();
-    let own = |sample: &Sample| {
-        reading.result.branches.get(sample.branch).is_some_and(|branch| branch.periods <= 1)
-    };
+    let courses = reading.courses().into_iter().zip(&reading.result.branches);
+    let own = courses.filter(|(_, branch)| branch.periods <= 1);
     // Where pieces begin (+1) and end (-1); a piece lies between two neighbours of a branch.
     let mut changes: Vec<(f64, i64)> = Vec::new();
-    for pair in samples.windows(2).filter(|pair| pair[0].branch == pair[1].branch && own(&pair[0]))
-    {
-        let (low, high) = (pair[0].x.min(pair[1].x), pair[0].x.max(pair[1].x));
+    for pair in own.flat_map(|(course, _)| pieces(&course)) {
+        let (low, high) = span(&pair);
         if low < high {
             changes.extend([(low, 1), (high, -1)]);
         }
@@ -132,19 +131,31 @@ pub(crate) fn periods_words(periods: u32) -> String {
     }
 }
 
+/// The stretches between neighbouring stops of a branch.
+fn pieces(course: &[Stop]) -> Vec<[Stop; 2]> {
+    course.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// Where a stretch lies.
+fn span([from, to]: &[Stop; 2]) -> (f64, f64) {
+    (from.sample.x.min(to.sample.x), from.sample.x.max(to.sample.x))
+}
+
 /// Stretches of the range in which no response is stable.
 pub(crate) fn unstable_gaps(reading: &Reading<'_>) -> Vec<(f64, f64)> {
-    let samples = reading.samples();
-    let Some((low, high)) = bounds(samples.iter().map(|sample| sample.x)) else {
+    let courses = reading.courses();
+    let Some((low, high)) = bounds(courses.iter().flatten().map(|stop| stop.sample.x)) else {
         return Vec::new();
     };
-    let mut held: Vec<(f64, f64)> = samples
-        .windows(2)
-        .filter(|pair| pair[0].branch == pair[1].branch && pair[0].stable && pair[1].stable)
-        .map(|pair| (pair[0].x.min(pair[1].x), pair[0].x.max(pair[1].x)))
+    let mut held: Vec<(f64, f64)> = courses
+        .iter()
+        .flat_map(|course| pieces(course))
+        .filter(|[from, to]| holds(from, to))
+        .map(|pair| span(&pair))
         .collect();
     held.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let shortest = 1e-6 * (high - low);
+    // A branch of twice the period does not begin exactly where the other one loses its stability.
+    let shortest = 2e-5 * (high - low);
     let mut gaps = Vec::new();
     let mut reached = low;
     for (from, to) in held.into_iter().chain([(high, high)]) {

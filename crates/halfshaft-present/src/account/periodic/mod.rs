@@ -5,17 +5,21 @@
 
 use halfshaft_results::ResonanceResult;
 
-use super::{Account, resonance, verification};
+use super::{Account, verification};
 use crate::reading::Reading;
 
 mod branches;
 mod coexisting;
 mod effort;
+mod losses;
 mod special;
 mod stability;
 mod swing;
 
+#[cfg(test)]
+pub(crate) use coexisting::most_coexisting;
 pub(crate) use coexisting::{periods_words, unstable_gaps};
+pub(crate) use losses::told as losses;
 
 /// The whole account.
 pub(crate) fn account(result: &ResonanceResult) -> Account {
@@ -27,7 +31,8 @@ pub(crate) fn account(result: &ResonanceResult) -> Account {
         return account;
     }
     account.text([swing::told(&reading)]);
-    account.text(resonance::jumps(result));
+    account.text(super::jumps::told(result));
+    account.text(losses::told(&reading));
     account.text(coexisting::told(&reading));
     for id in crate::figures::resonance::ids(result) {
         account.figure(id);
@@ -39,6 +44,7 @@ pub(crate) fn account(result: &ResonanceResult) -> Account {
     }
     account.grid(points);
     account.list(special::remarks(&reading));
+    account.text(losses::twins(&reading));
     account.grid(branches::grid(&reading));
     account.append(verification::account(result));
     account.text([effort::told(&reading)]);

@@ -181,6 +181,11 @@ impl Frame {
             base(&axis.label, &axis.unit, axis.scale, (self.y_view.low, self.y_view.high));
         value["anchor"] = json!(self.x);
         value["domain"] = json!([self.domain.0, self.domain.1]);
+        let whole = self.domain.1 - self.domain.0 > 0.99;
+        let title = value["title"]["text"].as_str().map(str::to_owned);
+        if let Some(title) = title.filter(|_| !whole) {
+            value["title"]["text"] = json!(two_lines(&title));
+        }
         add_names(&mut value, axis);
         value
     }
@@ -209,6 +214,20 @@ fn add_names(value: &mut Value, axis: &Axis) {
     value["tickvals"] = json!(places);
     value["ticktext"] = json!(names);
     value["minor"] = json!({ "ticks": "" });
+}
+
+/// A title in two lines, broken at the space nearest its middle, where it is too long to stand beside
+/// a low panel.
+fn two_lines(title: &str) -> String {
+    const LONGEST: usize = 14;
+    let length = title.chars().count();
+    // What is within a tag must stay in one piece.
+    if length <= LONGEST || title.contains('<') {
+        return title.to_owned();
+    }
+    let middle = title.len() / 2;
+    let space = title.match_indices(' ').map(|(at, _)| at).min_by_key(|at| at.abs_diff(middle));
+    space.map_or_else(|| title.to_owned(), |at| format!("{}<br>{}", &title[..at], &title[at + 1..]))
 }
 
 fn base(label: &str, unit: &str, scale: Scale, (low, high): (f64, f64)) -> Value {
@@ -300,4 +319,21 @@ fn domains(panels: &[Panel]) -> (Vec<(f64, f64)>, f64) {
     let domains = spans.into_iter().map(|(from, to)| (1.0 - to / total, 1.0 - from / total));
     let clean = |share: f64| rounded(share).unwrap_or(0.0).clamp(0.0, 1.0);
     (domains.map(|(low, high)| (clean(low), clean(high))).collect(), down)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::two_lines;
+
+    /// Oracle: by hand.
+    #[test]
+    fn long_titles_take_two_lines() {
+        assert_eq!(two_lines("Twist (rad)"), "Twist (rad)");
+        assert_eq!(two_lines("Largest multiplier"), "Largest<br>multiplier");
+        assert_eq!(
+            two_lines("Main twist, first harmonic (rad)"),
+            "Main twist, first<br>harmonic (rad)"
+        );
+        assert_eq!(two_lines("Overwhelmingly<sub>1</sub> long"), "Overwhelmingly<sub>1</sub> long");
+    }
 }

@@ -3,9 +3,10 @@
 use halfshaft_results::{FoldsResult, SpecialKind, SpecialPoint};
 
 use super::{Account, Grid};
-use crate::words::{
-    capital, column_label, counted, list, number, plain, quantity, special_words, times,
-};
+use crate::reading::bounds;
+use crate::words::{capital, column_label, counted, list, plain, quantity, special_words};
+
+mod verdict;
 
 /// The whole account.
 pub(crate) fn account(result: &FoldsResult) -> Account {
@@ -62,25 +63,27 @@ pub(crate) enum Side {
     Below,
 }
 
-/// On which side of the cusp the nearest curve lies; `None` where no curve touches it.
-pub(crate) fn side(result: &FoldsResult, cusp: f64) -> Option<Side> {
+/// On which side of the value of a special point the curve through it lies; `None` where there is no
+/// curve.
+pub(crate) fn side(result: &FoldsResult, point: &SpecialPoint) -> Option<Side> {
+    let (speed, value) = (point.value("frequency")?, point.value(&result.parameter)?);
+    let spread = |name: &str| {
+        let all = result.curves.iter().flat_map(|curve| curve.values(name)).copied();
+        bounds(all).map_or(1.0, |(low, high)| high - low).max(f64::MIN_POSITIVE)
+    };
+    let (wide, high) = (spread("frequency"), spread(&result.parameter));
     let mut best: Option<(f64, f64)> = None;
     for curve in &result.curves {
-        let values = curve.values(&result.parameter);
-        let (low, high) = bounds(values)?;
-        let middle = f64::midpoint(low, high);
-        let distance = (low - cusp).abs().min((high - cusp).abs());
-        if best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, middle));
+        let (x, y) = (curve.values("frequency"), curve.values(&result.parameter));
+        for (at, (x, own)) in x.iter().zip(y).enumerate() {
+            let apart = ((x - speed) / wide).hypot((own - value) / high);
+            if apart.is_finite() && best.is_none_or(|(least, _)| apart < least) {
+                let around = &y[at.saturating_sub(2)..(at + 3).min(y.len())];
+                best = Some((apart, around.iter().map(|y| y - value).sum()));
+            }
         }
     }
-    best.map(|(_, middle)| if middle >= cusp { Side::Above } else { Side::Below })
-}
-
-fn bounds(values: &[f64]) -> Option<(f64, f64)> {
-    let finite = || values.iter().copied().filter(|value| value.is_finite());
-    let (low, high) = (finite().reduce(f64::min)?, finite().reduce(f64::max)?);
-    Some((low, high))
+    best.map(|(_, beyond)| if beyond >= 0.0 { Side::Above } else { Side::Below })
 }
 
 /// Where folds begin, against the model's own value.
@@ -92,7 +95,7 @@ pub(crate) fn thresholds(result: &FoldsResult) -> Vec<String> {
     let mut sentences: Vec<String> = cusp_points(result)
         .filter_map(|point| {
             let value = point.value(&result.parameter)?;
-            let place = match side(result, value) {
+            let place = match side(result, point) {
                 Some(Side::Above) => "above",
                 Some(Side::Below) => "below",
                 None => "from",
@@ -110,7 +113,7 @@ pub(crate) fn thresholds(result: &FoldsResult) -> Vec<String> {
     let places = list(&std::mem::take(&mut sentences));
     let tail = own.map_or_else(String::new, |own| format!("; {own}"));
     let mut told = vec![format!("{}: {places}{tail}.", capital(&name))];
-    told.extend(distance(result));
+    told.extend(verdict::told(result));
     told
 }
 
@@ -125,32 +128,6 @@ fn without_cusp(result: &FoldsResult, name: &str, own: Option<String>) -> String
     } else {
         format!("The response folds over the whole range of the {name}, without a cusp{tail}.")
     }
-}
-
-/// How far the model's own value is from the nearest cusp.
-pub(crate) fn distance(result: &FoldsResult) -> Option<String> {
-    let own = result.parameter_value?;
-    let (nearest, _) = cusp_points(result)
-        .filter_map(|point| point.value(&result.parameter))
-        .filter(|cusp| cusp.signum() == own.signum())
-        .map(|cusp| (cusp, (cusp / own).ln().abs()))
-        .filter(|(_, distance)| distance.is_finite())
-        .min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let inside = match side(result, nearest)? {
-        Side::Above => own > nearest,
-        Side::Below => own < nearest,
-    };
-    let factor = (own / nearest).abs();
-    let ratio = if factor >= 1.0 {
-        format!("{} the threshold", times(factor))
-    } else {
-        format!("{} % of the threshold", number(100.0 * factor, 3))
-    };
-    Some(if inside {
-        format!("So the model lies in the jumping range, at {ratio}.")
-    } else {
-        format!("So the model does not jump; its value is {ratio}.")
-    })
 }
 
 /// Cusps, births and mergers.

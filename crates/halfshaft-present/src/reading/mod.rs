@@ -7,6 +7,10 @@ use halfshaft_results::{Branch, Header, ResonanceResult};
 
 use crate::words::{column_label, column_words, plain, quantity};
 
+mod course;
+
+pub(crate) use course::{Stop, holds};
+
 /// How periodic responses were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Method {
