@@ -9,7 +9,7 @@ use halfshaft_results::SpecialKind;
 
 use super::answer::Setting;
 use super::branches::{Collected, Job, NEAR, TracedBranch, on_branch};
-use super::exact::{self, Guess, Kind};
+use super::exact::{self, Guess, Kind, SETTLES};
 use super::orbits::{coefficients_of, state_of};
 use super::stability::Judge;
 use crate::shooting::{Shooter, length};
@@ -20,6 +20,9 @@ const PLACES: [f64; 3] = [0.5, 0.15, 0.85];
 const STARTS: usize = 2;
 /// Runs of a gap that may end without a motion that repeats.
 const MOST_UNSETTLED: usize = 2;
+/// Branches that are added so at most, and branches of several periods among them.
+const MOST_ADDED: usize = 12;
+const MOST_LONG: usize = 3;
 /// Highest order, over the excitation, of the harmonics to begin with.
 const ORDERS: usize = 24;
 
@@ -27,7 +30,11 @@ const ORDERS: usize = 24;
 pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) {
     let line = &setting.line;
     let fits = line.equations.groups() <= exact::MOST_GROUPS && job.settings.harmonics.is_none();
-    if !fits || setting.range.0 == setting.range.1 {
+    // Without damping nothing settles.
+    let equations = &line.equations;
+    let damped = equations.ground_damping.iter().any(|d| *d > 0.0)
+        || equations.connections.iter().any(|c| c.damping > 0.0 || c.friction.is_some());
+    if !fits || !damped || setting.range.0 == setting.range.1 {
         return;
     }
     let before = all.branches.len();
@@ -44,8 +51,8 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
         let mut runs = Runs::new(setting, job);
         for part in PLACES {
             let p = from + part * (to - from);
-            if !job.observer.cancelled() && !all.is_stable_at(p) && runs.unsettled < MOST_UNSETTLED
-            {
+            let enough = job.observer.cancelled() || all.branches.len() > before + MOST_ADDED;
+            if !enough && !all.is_stable_at(p) && runs.unsettled < MOST_UNSETTLED {
                 runs.at(p, all);
             }
         }
@@ -129,6 +136,10 @@ impl<'r, 's, 'f> Runs<'r, 's, 'f> {
     /// Follows the branch through a motion that repeats, unless that is known.
     fn follow(&mut self, guess: &Guess, all: &mut Collected) {
         let Kind { base, periods, mirrored } = guess.kind;
+        let long = all.branches.iter().filter(|branch| branch.origin.starts_with(SETTLES));
+        if periods > 1 && long.filter(|branch| branch.periods > 1).count() >= MOST_LONG {
+            return;
+        }
         let mut shooter = self.shooter.of_kind(base, mirrored);
         let Ok(orbit) = shooter.at(&guess.state, guess.p) else { return };
         let highest = ORDERS.max(self.setting.excited()) * periods as usize;

@@ -86,6 +86,8 @@ pub(in super::super) fn at_rest(
     state
 }
 
+/// How the origin of branches begins that such motions are on.
+pub(in super::super) const SETTLES: &str = "motion to which the line settles at";
 /// Periods of the excitation after which a motion that does not repeat is given up.
 const MOST_PERIODS: usize = 160;
 /// Periods of an orbit at most.
@@ -123,7 +125,7 @@ pub(in super::super) fn settled(
         if let Some(back) = back {
             let periods = u32::try_from(back).ok()?;
             let kind = Kind { base: kind.base / f64::from(periods), periods, mirrored: false };
-            let origin = format!("motion to which the line settles at {p:.6} rad/s");
+            let origin = format!("{SETTLES} {p:.6} rad/s");
             return Some(Guess { kind, state: last.clone(), p, origin });
         }
     }
