@@ -124,7 +124,8 @@ fn a_branch_of_twice_the_period_joins_two_doublings() {
 fn symmetry_breaks_before_the_period_doubles() {
     let settings = ["spring.stiffness=0.001", "spring.cubic=1", "drive.amplitude=4"];
     let result = asked(&settings, "0.7..1.6");
-    let [symmetric, unsymmetric, longer] = &result.branches[..] else {
+    // Windows in the chaos beyond may follow.
+    let [symmetric, unsymmetric, longer, ..] = &result.branches[..] else {
         panic!("{} branches", result.branches.len())
     };
     let broken = frequencies(symmetric, SpecialKind::BranchPoint);

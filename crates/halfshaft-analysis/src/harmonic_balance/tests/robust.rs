@@ -83,10 +83,13 @@ fn top(branch: &TracedBranch) -> &Sample {
 fn without_damping() {
     let found = sound(&duffing(0.0, 1.0, 0.1, 0.18), (0.2, 1.8));
     assert!(!found.collected.branches.is_empty());
-    for sample in found.collected.branches.iter().flat_map(|branch| &branch.samples) {
+    let samples = found.collected.branches.iter().filter(|branch| branch.periods == 1);
+    let samples = samples.flat_map(|branch| &branch.samples);
+    // Broken symmetry and longer periods have other phases.
+    for sample in samples.filter(|sample| sample.set.is_odd()) {
         let sine: f64 = sample.u.iter().skip(1).step_by(2).map(|x| x.abs()).sum();
         // Newton's method ends with a step of 1e-8 of the response, and nothing holds the phase much.
-        assert!(sine < 1e-4 * first(sample).max(1e-3), "{}: {sine:e}", sample.p);
+        assert!(sine < 1e-6 * first(sample).max(1e-3), "{}: {sine:e}", sample.p);
     }
     let linear = traced(&duffing(0.0, 1.0, 0.0, 0.18), (0.2, 1.8), 1e-6);
     assert!(complaint(&linear, 1e-6).is_none(), "{:?}", complaint(&linear, 1e-6));
