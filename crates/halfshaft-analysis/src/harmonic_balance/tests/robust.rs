@@ -88,8 +88,9 @@ fn without_damping() {
     // Broken symmetry and longer periods have other phases.
     for sample in samples.filter(|sample| sample.set.is_odd()) {
         let sine: f64 = sample.u.iter().skip(1).step_by(2).map(|x| x.abs()).sum();
-        // Newton's method ends with a step of 1e-8 of the response, and nothing holds the phase much.
-        assert!(sine < 1e-6 * first(sample).max(1e-3), "{}: {sine:e}", sample.p);
+        // Newton's method ends with a step of 1e-8 of the response, and in a superharmonic resonance
+        // next to nothing holds the phase.
+        assert!(sine < 1e-4 * first(sample).max(1e-3), "{}: {sine:e}", sample.p);
     }
     let linear = traced(&duffing(0.0, 1.0, 0.0, 0.18), (0.2, 1.8), 1e-6);
     assert!(complaint(&linear, 1e-6).is_none(), "{:?}", complaint(&linear, 1e-6));
