@@ -4,12 +4,14 @@ import os
 import resource
 import statistics
 import subprocess
+import sys
 import tempfile
 from dataclasses import dataclass
+from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-class Failure(Exception):
-    """Something that the comparison needs is missing or did not work; the message says what."""
+from preparation import Failure  # noqa: E402, F401
 
 
 @dataclass

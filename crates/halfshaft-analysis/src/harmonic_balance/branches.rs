@@ -5,7 +5,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::SpecialKind;
 
-use super::exact::{stretch, uncovered};
+use super::gaps::{stretch, uncovered};
 use super::line::Line;
 use super::problem::{Axis, Problem};
 use super::refine::refine;

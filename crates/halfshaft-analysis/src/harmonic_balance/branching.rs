@@ -11,6 +11,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_results::SpecialKind;
 
 use super::branches::{Collected, Job, NEAR, TracedBranch, on_branch};
+use super::images::turned;
 use super::problem::{Condition, Metric};
 use super::special::Special;
 use super::stability::Judge;
@@ -365,15 +366,8 @@ fn is_end(branches: &[TracedBranch], fork: &Fork) -> bool {
 
 /// Whether a response, or the same half a period later, or its mirror image, lies on a branch.
 fn on_mirrored(branch: &TracedBranch, sample: &Sample) -> bool {
-    let m = sample.set.coefficients();
-    let mut shifted = sample.u.clone();
-    for node in shifted.chunks_exact_mut(m) {
-        for (_, place) in sample.set.places().filter(|(order, _)| order % 2 == 1) {
-            node[place] = -node[place];
-            node[place + 1] = -node[place + 1];
-        }
-    }
-    let mirrored: Vec<f64> = shifted.iter().map(|x| -x).collect();
+    let half = |sign: f64| turned(&sample.set, &sample.u, std::f64::consts::PI, sign);
+    let (shifted, mirrored) = (half(1.0), half(-1.0));
     [&sample.u, &shifted, &mirrored]
         .into_iter()
         .any(|u| on_branch(branch, &sample.set, u, sample.p, NEAR))

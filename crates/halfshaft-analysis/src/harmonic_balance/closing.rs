@@ -20,11 +20,16 @@ pub(super) fn comes_back(samples: &[Sample], next: &Sample) -> bool {
     let (distance_b, along_b) = from_first(&b, next.p);
     let step: Vec<f64> = b.iter().zip(&a).map(|(x, y)| x - y).collect();
     let length = metric.norm(&step, next.p - last.p);
-    let facing =
-        metric.dot((&step, next.p - last.p), (&first.tangent, first.tangent_p)) > 0.7 * length;
-    facing
-        && along_a <= 0.0
-        && along_b >= 0.0
-        && distance_a <= 1.1 * length
-        && distance_b <= 1.1 * length
+    let forward = metric.dot((&step, next.p - last.p), (&first.tangent, first.tangent_p));
+    passes((distance_a, along_a), (distance_b, along_b), forward, length)
+}
+
+/// Whether a step passes a place in its direction: given are the distances of its ends from the place
+/// and their ways along the direction, the way of the step along it, and its length.
+pub(super) fn passes(from: (f64, f64), to: (f64, f64), forward: f64, length: f64) -> bool {
+    forward > 0.7 * length
+        && from.1 <= 0.0
+        && to.1 >= 0.0
+        && from.0 <= 1.1 * length
+        && to.0 <= 1.1 * length
 }

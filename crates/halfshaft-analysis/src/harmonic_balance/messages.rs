@@ -15,7 +15,9 @@ pub(super) fn messages(
 ) {
     let header = &mut result.header;
     header.warnings.extend(all.messages.iter().cloned());
-    lost_guesses(all, &mut header.warnings);
+    // Over another number of the line the places are values of that.
+    let unit = if question.parameter.is_some() { "" } else { " rad/s" };
+    lost_guesses(all, unit, &mut header.warnings);
     if all.branches.is_empty() {
         header.warnings.push(format!(
             "no periodic response was found between {:.6} and {:.6} rad/s; try a narrower range or a \
@@ -23,39 +25,7 @@ pub(super) fn messages(
             setting.range.0, setting.range.1
         ));
     }
-    for branch in &all.branches {
-        let mut stopped = |end: BranchEnd, sample: Option<&Sample>| {
-            let Some(sample) = sample else { return };
-            let why = match end {
-                BranchEnd::StepTooSmall => "no step was small enough to go on",
-                BranchEnd::SampleLimit => "as many samples as allowed were taken",
-                BranchEnd::Unbounded => "the response grows beyond all measure",
-                BranchEnd::Chattering => {
-                    "a contact closes and opens too often within a period to be followed"
-                }
-                BranchEnd::Grazing => {
-                    "a twist grazes a break of its law and no response was found beyond"
-                }
-                _ => return,
-            };
-            if all.exact {
-                header.warnings.push(format!(
-                    "the branch from the {} stops at {:.6} rad/s: {why}",
-                    branch.origin, sample.p
-                ));
-                return;
-            }
-            header.warnings.push(format!(
-                "the branch from the {} stops at {:.6} rad/s: {why}; try --tolerance {:.0e} or a \
-                 narrower range",
-                branch.origin,
-                sample.p,
-                10.0 * question.tolerance
-            ));
-        };
-        stopped(branch.ends[0], branch.samples.first());
-        stopped(branch.ends[1], branch.samples.last());
-    }
+    stops(all, question.tolerance, &mut header.warnings);
     let unknown = all.branches.iter().flat_map(|branch| &branch.stability);
     let unknown = unknown.filter(|stability| !stability.is_known()).count();
     if unknown > 0 {
@@ -87,16 +57,53 @@ pub(super) fn messages(
     }
 }
 
-/// Speeds at which one harmonic has a response and no other is known.
-fn lost_guesses(all: &Collected, warnings: &mut Vec<String>) {
+/// Places at which one harmonic has a response and no other is known.
+fn lost_guesses(all: &Collected, unit: &str, warnings: &mut Vec<String>) {
     let unknown = all.lost.iter().filter(|p| !all.is_known_at(**p));
-    let mut speeds: Vec<String> = unknown.map(|p| format!("{p:.6}")).collect();
-    speeds.dedup();
-    if !speeds.is_empty() {
+    let mut places: Vec<String> = unknown.map(|p| format!("{p:.6}")).collect();
+    places.dedup();
+    if !places.is_empty() {
         warnings.push(format!(
-            "one harmonic alone has a response at {} rad/s, but none was found there with more: try \
+            "one harmonic alone has a response at {}{unit}, but none was found there with more: try \
              --method first-harmonic to see it, and a wider range",
-            speeds.join(", ")
+            places.join(", ")
         ));
+    }
+}
+
+/// Branches that stop before the range does, and what to try.
+fn stops(all: &Collected, tolerance: f64, warnings: &mut Vec<String>) {
+    for branch in &all.branches {
+        let mut stopped = |end: BranchEnd, sample: Option<&Sample>| {
+            let Some(sample) = sample else { return };
+            let why = match end {
+                BranchEnd::StepTooSmall => "no step was small enough to go on",
+                BranchEnd::SampleLimit => "as many samples as allowed were taken",
+                BranchEnd::Unbounded => "the response grows beyond all measure",
+                BranchEnd::Chattering => {
+                    "a contact closes and opens too often within a period to be followed"
+                }
+                BranchEnd::Grazing => {
+                    "a twist grazes a break of its law and no response was found beyond"
+                }
+                _ => return,
+            };
+            if all.exact {
+                warnings.push(format!(
+                    "the branch from the {} stops at {:.6} rad/s: {why}",
+                    branch.origin, sample.p
+                ));
+                return;
+            }
+            warnings.push(format!(
+                "the branch from the {} stops at {:.6} rad/s: {why}; try --tolerance {:.0e} or a \
+                 narrower range",
+                branch.origin,
+                sample.p,
+                10.0 * tolerance
+            ));
+        };
+        stopped(branch.ends[0], branch.samples.first());
+        stopped(branch.ends[1], branch.samples.last());
     }
 }

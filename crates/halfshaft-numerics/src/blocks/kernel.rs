@@ -14,30 +14,12 @@ pub(super) fn factorise(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mu
 #[inline]
 pub(super) fn plain(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
     for k in 0..n {
-        let mut best = k;
-        let mut largest = a[k * n + k].abs();
-        for row in k + 1..n {
-            let size = a[row * n + k].abs();
-            if size > largest {
-                largest = size;
-                best = row;
-            }
-        }
-        if !(largest > 0.0 && largest.is_finite()) {
+        if !exchange(a, n, k, pivots, sign) {
             return false;
-        }
-        pivots[k] = best;
-        if best != k {
-            *sign = -*sign;
-            let (upper, lower) = a.split_at_mut(best * n);
-            upper[k * n..(k + 1) * n].swap_with_slice(&mut lower[..n]);
         }
         let (upper, lower) = a.split_at_mut((k + 1) * n);
         let pivot_row = &upper[k * n..];
         let inverse = 1.0 / pivot_row[k];
-        if pivot_row[k] < 0.0 {
-            *sign = -*sign;
-        }
         for row in lower.chunks_exact_mut(n) {
             let factor = row[k] * inverse;
             row[k] = factor;
@@ -47,6 +29,40 @@ pub(super) fn plain(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f6
                 }
             }
         }
+    }
+    true
+}
+
+/// Brings the largest entry of column `k` on and below the diagonal into row `k`; `false` where it
+/// vanishes or is not finite. `sign` is multiplied by that of the exchange and of the pivot.
+#[inline(always)]
+pub(super) fn exchange(
+    a: &mut [f64],
+    n: usize,
+    k: usize,
+    pivots: &mut [usize],
+    sign: &mut f64,
+) -> bool {
+    let mut best = k;
+    let mut largest = a[k * n + k].abs();
+    for row in k + 1..n {
+        let size = a[row * n + k].abs();
+        if size > largest {
+            largest = size;
+            best = row;
+        }
+    }
+    if !(largest > 0.0 && largest.is_finite()) {
+        return false;
+    }
+    pivots[k] = best;
+    if best != k {
+        *sign = -*sign;
+        let (upper, lower) = a.split_at_mut(best * n);
+        upper[k * n..(k + 1) * n].swap_with_slice(&mut lower[..n]);
+    }
+    if a[k * n + k] < 0.0 {
+        *sign = -*sign;
     }
     true
 }

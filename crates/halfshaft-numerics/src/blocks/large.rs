@@ -55,29 +55,11 @@ fn panel(
     sign: &mut f64,
 ) -> bool {
     for k in from..to {
-        let mut best = k;
-        let mut largest = a[k * n + k].abs();
-        for row in k + 1..n {
-            let size = a[row * n + k].abs();
-            if size > largest {
-                largest = size;
-                best = row;
-            }
-        }
-        if !(largest > 0.0 && largest.is_finite()) {
+        if !super::kernel::exchange(a, n, k, pivots, sign) {
             return false;
-        }
-        pivots[k] = best;
-        if best != k {
-            *sign = -*sign;
-            let (upper, lower) = a.split_at_mut(best * n);
-            upper[k * n..(k + 1) * n].swap_with_slice(&mut lower[..n]);
         }
         let (upper, lower) = a.split_at_mut((k + 1) * n);
         let pivot = &upper[k * n + k..k * n + to];
-        if pivot[0] < 0.0 {
-            *sign = -*sign;
-        }
         let inverse = 1.0 / pivot[0];
         for row in lower.chunks_exact_mut(n) {
             let row = &mut row[k..to];

@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use super::functions::{rough_exp2, rough_log2};
 use super::pairs::{Coefficients, LARGEST_STAGES, weighted};
-use super::stepper::{Pass, Stepper};
+use super::stepper::{Pass, Stepper, put, take};
 use super::{LaneSystem, Lanes, Settings};
 
 /// A step that would leave less than this share of itself to the goal is stretched to reach it.
@@ -165,18 +165,15 @@ impl<Y: LaneSystem, P: Coefficients, L: Lanes> Stepper<L> for RungeKutta<'_, Y, 
 
     fn set(&mut self, lane: usize, time: f64, state: &[f64], parameters: &[f64]) {
         self.time.set(lane, time);
-        self.state.iter_mut().zip(state).for_each(|(to, value)| to.set(lane, *value));
-        self.parameters.iter_mut().zip(parameters).for_each(|(to, value)| to.set(lane, *value));
+        put(lane, state, &mut self.state);
+        put(lane, parameters, &mut self.parameters);
         self.next.set(lane, 0.0);
         self.fresh = true;
     }
 
     fn get(&self, lane: usize, state: &mut [f64], parameters: &mut [f64]) {
-        state.iter_mut().zip(&self.state).for_each(|(value, from)| *value = from.get(lane));
-        parameters
-            .iter_mut()
-            .zip(&self.parameters)
-            .for_each(|(value, from)| *value = from.get(lane));
+        take(lane, &self.state, state);
+        take(lane, &self.parameters, parameters);
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! The numbers of an ensemble.
 
 use super::{Instructions, LARGEST_DEGREE};
-use crate::error::{Error, has_length, setting};
-use crate::ode::Tolerance;
+use crate::error::{Error, setting};
+use crate::ode::{Tolerance, check_tolerances};
 
 /// Least degree of the Taylor series.
 const LEAST_DEGREE: usize = 4;
@@ -68,17 +68,7 @@ impl Settings {
     /// [`Error::Setting`] with the field that is out of range, [`Error::Length`] if there are not as
     /// many absolute tolerances as components.
     pub fn validate(&self, dimension: usize) -> Result<(), Error> {
-        let relative = self.relative_tolerance;
-        let sensible = (0.0..1.0).contains(&relative);
-        setting("relative_tolerance", relative, sensible, "must lie in [0, 1)")?;
-        if let Tolerance::PerComponent(values) = &self.absolute_tolerance {
-            has_length("absolute tolerances", dimension, values.len())?;
-        }
-        for component in 0..dimension {
-            let absolute = self.absolute_tolerance.of(component);
-            let sensible = absolute > 0.0 && absolute.is_finite();
-            setting("absolute_tolerance", absolute, sensible, "must be positive and finite")?;
-        }
+        check_tolerances(self.relative_tolerance, &self.absolute_tolerance, dimension)?;
         let fixed = self.fixed_step.unwrap_or(1.0);
         for (name, length) in [("largest_step", self.largest_step), ("fixed_step", fixed)] {
             setting(name, length, length > 0.0, "must be positive")?;

@@ -31,6 +31,18 @@ pub(super) trait Stepper<L: Lanes> {
     fn passes(&self) -> &[Pass];
 }
 
+/// Puts the numbers of a trajectory into a lane.
+#[inline(always)]
+pub(super) fn put<L: Lanes>(lane: usize, from: &[f64], to: &mut [L]) {
+    to.iter_mut().zip(from).for_each(|(to, value)| to.set(lane, *value));
+}
+
+/// Reads the numbers of a trajectory from a lane.
+#[inline(always)]
+pub(super) fn take<L: Lanes>(lane: usize, from: &[L], to: &mut [f64]) {
+    to.iter_mut().zip(from).for_each(|(value, from)| *value = from.get(lane));
+}
+
 /// A passage of one lane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pass {

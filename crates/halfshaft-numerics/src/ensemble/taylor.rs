@@ -7,7 +7,7 @@
 use super::bands::{Entered, Exit, Passage, exit, may_leave};
 use super::functions::{rough_exp2, rough_log2};
 use super::series::value_and_slope;
-use super::stepper::{Pass, Stepper};
+use super::stepper::{Pass, Stepper, put, take};
 use super::{Expansion, LARGEST_DEGREE, Lanes, RECIPROCALS, SeriesSystem, Settings};
 
 /// A step that would leave less than this share of itself to the goal is stretched to reach it.
@@ -181,13 +181,9 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
         let mut parameters = vec![0.0; self.parameters.len()];
         for index in 0..self.passes.len() {
             let Pass { lane, passage } = self.passes[index];
-            for (value, from) in parameters.iter_mut().zip(&self.parameters) {
-                *value = from.get(lane);
-            }
+            take(lane, &self.parameters, &mut parameters);
             self.system.pass(passage.band, passage.up, &mut parameters);
-            for (value, to) in parameters.iter().zip(&mut self.parameters) {
-                to.set(lane, *value);
-            }
+            put(lane, &parameters, &mut self.parameters);
             self.entered[lane] = Some((passage.band, !passage.up));
         }
     }
@@ -211,17 +207,14 @@ impl<Y: SeriesSystem, L: Lanes> Stepper<L> for Taylor<'_, Y, L> {
 
     fn set(&mut self, lane: usize, time: f64, state: &[f64], parameters: &[f64]) {
         self.time.set(lane, time);
-        self.state.iter_mut().zip(state).for_each(|(to, value)| to.set(lane, *value));
-        self.parameters.iter_mut().zip(parameters).for_each(|(to, value)| to.set(lane, *value));
+        put(lane, state, &mut self.state);
+        put(lane, parameters, &mut self.parameters);
         self.entered[lane] = None;
     }
 
     fn get(&self, lane: usize, state: &mut [f64], parameters: &mut [f64]) {
-        state.iter_mut().zip(&self.state).for_each(|(value, from)| *value = from.get(lane));
-        parameters
-            .iter_mut()
-            .zip(&self.parameters)
-            .for_each(|(value, from)| *value = from.get(lane));
+        take(lane, &self.state, state);
+        take(lane, &self.parameters, parameters);
     }
 
     #[inline(always)]

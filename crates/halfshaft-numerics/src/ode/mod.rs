@@ -13,6 +13,7 @@ mod stop;
 mod variational;
 
 pub use driver::{AcceptedStep, Finish, integrate};
+pub(crate) use settings::check_tolerances;
 pub use settings::{Settings, Tolerance};
 pub use stop::Stop;
 pub use variational::Variational;

@@ -35,6 +35,25 @@ impl From<Vec<f64>> for Tolerance {
     }
 }
 
+/// Checks both tolerances of an integration of so many components.
+pub(crate) fn check_tolerances(
+    relative: f64,
+    absolute: &Tolerance,
+    dimension: usize,
+) -> Result<(), Error> {
+    let sensible = (0.0..1.0).contains(&relative);
+    setting("relative_tolerance", relative, sensible, "must lie in [0, 1)")?;
+    if let Tolerance::PerComponent(values) = absolute {
+        has_length("absolute tolerances", dimension, values.len())?;
+    }
+    for component in 0..dimension {
+        let value = absolute.of(component);
+        let sensible = value > 0.0 && value.is_finite();
+        setting("absolute_tolerance", value, sensible, "must be positive and finite")?;
+    }
+    Ok(())
+}
+
 /// The numbers of the time integration.
 ///
 /// A step is accepted if the root mean square over the components of
@@ -98,17 +117,7 @@ impl Settings {
     /// [`Error::Setting`] with the field that is out of range, [`Error::Length`] if there are not
     /// as many absolute tolerances as components.
     pub fn validate(&self, dimension: usize) -> Result<(), Error> {
-        let relative = self.relative_tolerance;
-        let sensible = (0.0..1.0).contains(&relative);
-        setting("relative_tolerance", relative, sensible, "must lie in [0, 1)")?;
-        if let Tolerance::PerComponent(values) = &self.absolute_tolerance {
-            has_length("absolute tolerances", dimension, values.len())?;
-        }
-        for component in 0..dimension {
-            let absolute = self.absolute_tolerance.of(component);
-            let sensible = absolute > 0.0 && absolute.is_finite();
-            setting("absolute_tolerance", absolute, sensible, "must be positive and finite")?;
-        }
+        check_tolerances(self.relative_tolerance, &self.absolute_tolerance, dimension)?;
         let lengths = [
             ("largest_step", self.largest_step),
             ("first_step", self.first_step.unwrap_or(1.0)),

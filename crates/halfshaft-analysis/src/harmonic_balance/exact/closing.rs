@@ -1,6 +1,7 @@
 //! Whether a branch has come back: to where it began, to that some periods later, or to the branch that
 //! it branches off.
 
+use super::super::closing::passes;
 use super::curve::Curve;
 use super::point::Point;
 use crate::shooting::{Lost, length};
@@ -88,14 +89,9 @@ impl Curve<'_, '_> {
             let (d, d_p, distance) = metric.step(first, point);
             (distance, metric.dot((&d, d_p), ahead))
         };
-        let (distance_a, along_a) = from_first(last);
-        let (distance_b, along_b) = from_first(next);
         let (step, step_p, length) = metric.step(last, next);
-        metric.dot((&step, step_p), ahead) > 0.7 * length
-            && along_a <= 0.0
-            && along_b >= 0.0
-            && distance_a <= 1.1 * length
-            && distance_b <= 1.1 * length
+        let forward = metric.dot((&step, step_p), ahead);
+        passes(from_first(last), from_first(next), forward, length)
     }
 
     /// The part of a state that the branch from which it branches off lacks: it repeats earlier, or

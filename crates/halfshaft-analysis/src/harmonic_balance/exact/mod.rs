@@ -33,6 +33,5 @@ mod touch;
 
 pub(super) use answer::{MOST_GROUPS, collect};
 pub(super) use explorer::Guess;
-pub(super) use gaps::{stretch, uncovered};
 pub(super) use point::Kind;
 pub(super) use seeds::{MOST_MULTIPLE, SETTLES, at_rest, is_mirrored, settled, starts};
