@@ -63,10 +63,14 @@ fn test() -> Outcome {
     cargo(&["build", "--workspace", "--quiet"])?;
     cargo(&["test", "--workspace", "--quiet"])?;
     heading("docs");
-    run::cargo_with(
-        &["doc", "--workspace", "--no-deps", "--quiet", "--document-private-items"],
-        &[("RUSTDOCFLAGS", "-D warnings")],
-    )?;
+    // The program and the library have one name, so that their pages share a folder: one after the
+    // other, the library's last.
+    for packages in
+        [&["--package", "halfshaft-cli"][..], &["--workspace", "--exclude", "halfshaft-cli"]]
+    {
+        let shared = ["doc", "--no-deps", "--quiet", "--document-private-items"];
+        run::cargo_with(&[&shared, packages].concat(), &[("RUSTDOCFLAGS", "-D warnings")])?;
+    }
     heading("generated files");
     generate::check()?;
     heading("README");

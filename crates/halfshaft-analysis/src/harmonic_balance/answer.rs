@@ -136,7 +136,7 @@ impl Setting {
             harmonics,
             miss: MISS,
             longest: LONGEST,
-            most_samples: 20_000,
+            most_samples: 4000,
             most_size: 1e9,
         }
     }

@@ -52,9 +52,21 @@ pub(crate) struct Collected {
     pub(crate) lost: Vec<f64>,
     /// Whether branches are exact orbits.
     pub(crate) exact: bool,
+    /// Whether something was not followed since enough had been found.
+    pub(crate) cut: bool,
 }
 
+/// Work on one question after which nothing further is followed, in samples of few harmonics.
+const MOST_WORK: f64 = 6000.0;
 impl Collected {
+    /// Whether so much has been found that nothing further is followed; tells that it was asked.
+    pub(super) fn is_full(&mut self) -> bool {
+        let samples = self.branches.iter().flat_map(|branch| &branch.samples);
+        let full = samples.map(Sample::work).sum::<f64>() > MOST_WORK;
+        self.cut |= full;
+        full
+    }
+
     /// Ranges over which no branch is stable, apart from narrow ones.
     pub(super) fn gaps(&self, range: (f64, f64)) -> Vec<(f64, f64)> {
         uncovered(self.stretches(TracedBranch::stable_between), range)
@@ -126,6 +138,7 @@ impl<'j, 'f> Job<'j, 'f> {
             messages: Vec::new(),
             lost: Vec::new(),
             exact: false,
+            cut: false,
         };
         let Some((first, _, _)) = seeds.first() else { return all };
         let mut tracer = self.tracer(first.set.clone(), self.base);
@@ -138,6 +151,9 @@ impl<'j, 'f> Job<'j, 'f> {
             let near = |branch: &TracedBranch| on_branch(branch, &seed.set, &seed.u, *p, NEAR);
             if all.branches.iter().any(near) {
                 continue;
+            }
+            if all.is_full() {
+                break;
             }
             let start = self.start_set(&seed.set);
             let guess = refit(&seed.set, &start, 1, &seed.u);

@@ -41,6 +41,13 @@ pub(super) fn messages(
             question.tolerance
         ));
     }
+    if all.cut {
+        header.warnings.push(
+            "responses are so many here that some branches were not looked for; ask for a narrower range \
+             to see all of them there"
+                .to_owned(),
+        );
+    }
     if all.exact {
         header.assumptions.push(
             "laws with kinks: branches are orbits of the full motion by shooting from kink to kink, \

@@ -93,6 +93,12 @@ const CONVERGED: f64 = 1e-8;
 /// On the way along a curve a first correction below this is the last: what it leaves is of the order
 /// of its square.
 const SMALL: f64 = 3e-7;
+/// Steps with kept factors at most, and the slowest rate at which they may approach.
+const MOST_NEARBY: usize = 10;
+const SLOWEST: f64 = 0.2;
+/// What may be left then, and a step below which rounding stalls them.
+const LEFT: f64 = 1e-14;
+const ROUNDING: f64 = 1e-11;
 /// Relative step of difference quotients by a parameter of the line.
 const PARAMETER_STEP: f64 = 1e-6;
 
@@ -240,7 +246,43 @@ impl<'f> Problem<'f> {
         Err(Failure::NotConverged)
     }
 
-    /// The same on the way along a curve, where the guess is good and the Jacobian far from singular.
+    /// The response close by one whose factors are kept: steps with these alone, which approach it at a
+    /// constant rate and cost a residual each.
+    pub(super) fn correct_nearby(
+        &mut self,
+        u: &mut [f64],
+        p: &mut f64,
+        condition: &Condition<'_>,
+        metric: &Metric,
+    ) -> Result<Corrected, Failure> {
+        let mut step = vec![0.0; u.len()];
+        let mut before = f64::INFINITY;
+        for iteration in 1..=MOST_NEARBY {
+            self.line_at(*p)?;
+            self.system.evaluate(u, self.place_at(*p), false);
+            step.iter_mut().zip(&self.system.residual).for_each(|(s, r)| *s = -r);
+            let held: f64 = condition.row.iter().zip(u.iter()).map(|(a, b)| a * b).sum();
+            let mut step_p = condition.target - held - condition.corner * *p;
+            self.solve(&mut step, &mut step_p);
+            let size = metric.norm(&step, step_p);
+            if !size.is_finite() || size > SLOWEST * before {
+                let settled = before < ROUNDING;
+                let done = Corrected { iterations: iteration, last: size, first: 0.0 };
+                return if settled { Ok(done) } else { Err(Failure::NotConverged) };
+            }
+            u.iter_mut().zip(&step).for_each(|(u, s)| *u += s);
+            *p += step_p;
+            // What is left is smaller by the rate of the last two steps.
+            let rate = if iteration == 1 { SLOWEST } else { size / before };
+            if size * rate < LEFT {
+                return Ok(Corrected { iterations: iteration, last: size, first: 0.0 });
+            }
+            before = size;
+        }
+        Err(Failure::NotConverged)
+    }
+
+    /// Newton's method on the way along a curve, where the guess is good and the Jacobian far from singular.
     pub(super) fn correct_next(
         &mut self,
         u: &mut [f64],

@@ -41,7 +41,7 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
     let before = all.branches.len();
     let lost = std::mem::take(&mut all.lost);
     for place in &lost {
-        if !all.is_stable_at(*place) {
+        if !all.is_stable_at(*place) && !all.is_full() {
             Runs::new(setting, job).at(*place, all);
         }
     }
@@ -53,7 +53,8 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
         for part in PLACES {
             let p = from + part * (to - from);
             let enough = job.observer.cancelled() || all.branches.len() > before + MOST_ADDED;
-            if !enough && !all.is_stable_at(p) && runs.unsettled < MOST_UNSETTLED {
+            let open = !enough && runs.unsettled < MOST_UNSETTLED;
+            if open && !all.is_stable_at(p) && !all.is_full() {
                 runs.at(p, all);
             }
         }

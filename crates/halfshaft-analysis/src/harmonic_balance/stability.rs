@@ -16,20 +16,33 @@ pub(crate) struct Stability {
     /// fold has -1 there, a loss of the mirror symmetry +1.
     pub(crate) half: Vec<Complex>,
     pub(crate) unstable: usize,
+    /// Error of the multipliers by rounding: what the largest of them leaves to the others.
+    rounding: f64,
 }
 
 /// A multiplier beyond one by less than this is rounding.
 pub(crate) const NEUTRAL: f64 = 1e-9;
+/// Rounding of a matrix of multipliers, relative to the largest.
+const ROUNDING: f64 = 3e-14;
 
 impl Stability {
     /// The stability of a response with the given multipliers, which are those of half a period where
     /// it is mirrored then.
     pub(crate) fn of(raw: Vec<Complex>, mirrored: bool) -> Self {
         let squares = |m: &Complex| *m * *m;
+        let largest = raw.iter().map(|m| m.modulus()).fold(0.0, f64::max);
+        let rounding = ROUNDING * largest * if mirrored { 2.0 } else { 1.0 };
         let (multipliers, half): (Vec<Complex>, Vec<Complex>) =
             if mirrored { (raw.iter().map(squares).collect(), raw) } else { (raw, Vec::new()) };
-        let unstable = multipliers.iter().filter(|m| m.modulus() > 1.0 + NEUTRAL).count();
-        Self { multipliers, half, unstable }
+        let mut stability = Self { multipliers, half, unstable: 0, rounding };
+        let outside = stability.multipliers.iter().filter(|m| stability.is_outside(**m)).count();
+        stability.unstable = outside;
+        stability
+    }
+
+    /// Whether a multiplier lies outside of the unit circle beyond rounding.
+    fn is_outside(&self, multiplier: Complex) -> bool {
+        multiplier.modulus() > 1.0 + NEUTRAL + self.rounding
     }
 
     pub(crate) fn is_stable(&self) -> bool {
@@ -150,18 +163,32 @@ pub(super) fn pair_angle(stability: &Stability) -> f64 {
 
 /// The ways in which the unstable dimension may have changed between two responses.
 pub(super) fn crossings(before: &Stability, after: &Stability) -> Vec<Crossing> {
-    [Crossing::One, Crossing::MinusOne, Crossing::Pair]
-        .into_iter()
-        .filter(|crossing| {
-            let count = |s: &Stability| counted(s, *crossing);
-            count(before) != count(after)
-        })
-        .collect()
+    let moved = |crossing| counted(before, crossing) != counted(after, crossing);
+    let apart = |crossing| counted(before, crossing).abs_diff(counted(after, crossing));
+    let even = |crossing| apart(crossing).is_multiple_of(2);
+    // Pairs that became real outside of the circle, or real ones that became a pair, cross nothing.
+    if before.unstable == after.unstable && even(Crossing::One) && even(Crossing::MinusOne) {
+        return Vec::new();
+    }
+    let mut all = vec![Crossing::One, Crossing::MinusOne, Crossing::Pair];
+    all.retain(|crossing| moved(*crossing));
+    all
+}
+
+/// Whether a crossing that was not found may have been two multipliers meeting outside of the circle.
+pub(super) fn may_be_a_meeting(before: &Stability, after: &Stability, crossing: Crossing) -> bool {
+    let moved = counted(before, crossing).abs_diff(counted(after, crossing));
+    let change = before.unstable.abs_diff(after.unstable);
+    match crossing {
+        Crossing::Pair => change != 2,
+        Crossing::MinusOne => moved.is_multiple_of(2),
+        Crossing::One => false,
+    }
 }
 
 /// How many multipliers lie outside on the side of a crossing.
 pub(super) fn counted(stability: &Stability, crossing: Crossing) -> usize {
-    let outside = |m: &&Complex| m.modulus() > 1.0 + NEUTRAL;
+    let outside = |m: &&Complex| stability.is_outside(**m);
     match crossing {
         Crossing::One => {
             let list =

@@ -34,6 +34,16 @@ pub(crate) struct Sample {
     pub(crate) truncation: f64,
 }
 
+/// Coefficients of a node from which on a sample counts for more than one.
+const FEW_COEFFICIENTS: f64 = 60.0;
+
+impl Sample {
+    /// Work on the sample, over that of one of few harmonics: it grows with their square at least.
+    pub(super) fn work(&self) -> f64 {
+        (self.set.coefficients() as f64 / FEW_COEFFICIENTS).powi(2).max(1.0)
+    }
+}
+
 /// Why a branch ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BranchEnd {
@@ -70,7 +80,7 @@ pub(crate) struct TraceSettings {
     pub(crate) miss: f64,
     /// Longest step, in the metric.
     pub(crate) longest: f64,
-    /// Samples of a branch at most.
+    /// Samples of a branch at most, those of many harmonics counted for more than one.
     pub(crate) most_samples: usize,
     /// Size of the response at which it counts as unbounded.
     pub(crate) most_size: f64,
@@ -239,11 +249,13 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let mut set = start.set.clone();
         let mut scratch = start.u.clone();
         self.use_set(&set, &mut scratch, &start.set);
+        let mut work = 0.0;
         let end = loop {
             if self.observer.cancelled() {
                 break BranchEnd::Cancelled;
             }
-            if samples.len() >= self.settings.most_samples {
+            work += samples.last().map_or(0.0, Sample::work);
+            if work >= self.settings.most_samples as f64 {
                 break BranchEnd::SampleLimit;
             }
             let (low, high) = self.settings.range;

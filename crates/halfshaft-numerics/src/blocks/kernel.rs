@@ -1,17 +1,19 @@
 //! Dense kernels on row-major slices: factorisation with partial pivoting, solves, products.
 
-/// From this order on blocks are factorised in panels.
+/// From this order on blocks are left to the library.
 const LARGE: usize = 64;
+/// So many right-hand sides or columns are worth its preparations.
+const MANY: usize = 8;
 
 /// Factorises the `n` by `n` matrix in place; `false` where a pivot vanishes or is not finite.
 /// `sign` is multiplied by the sign of the determinant.
-#[inline]
+#[inline(always)]
 pub(super) fn factorise(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
     if n < LARGE { plain(a, n, pivots, sign) } else { super::large::factorise(a, n, pivots, sign) }
 }
 
 /// The same a column at a time.
-#[inline]
+#[inline(always)]
 pub(super) fn plain(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
     for k in 0..n {
         if !exchange(a, n, k, pivots, sign) {
@@ -68,7 +70,7 @@ pub(super) fn exchange(
 }
 
 /// Solves `A X = R` in place for `columns` right-hand sides (row-major, `n` by `columns`).
-#[inline]
+#[inline(always)]
 pub(super) fn solve(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64], columns: usize) {
     for k in 0..n {
         let best = pivots[k];
@@ -76,6 +78,12 @@ pub(super) fn solve(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64], colum
             let (upper, lower) = r.split_at_mut(best * columns);
             upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
         }
+    }
+    if columns == 1 {
+        return solve_one(lu, n, r);
+    }
+    if n >= LARGE && columns >= MANY {
+        return super::large::solve(lu, n, r, columns);
     }
     for row in 1..n {
         let (done, rest) = r.split_at_mut(row * columns);
@@ -98,8 +106,37 @@ pub(super) fn solve(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64], colum
     }
 }
 
+/// Solves `L U x = r` in place, rows exchanged before.
+#[inline(always)]
+fn solve_one(lu: &[f64], n: usize, r: &mut [f64]) {
+    for row in 1..n {
+        let (done, rest) = r.split_at_mut(row);
+        rest[0] -= dot(&lu[row * n..row * n + row], done);
+    }
+    for row in (0..n).rev() {
+        let (upper, done) = r.split_at_mut(row + 1);
+        let own = &lu[row * n..(row + 1) * n];
+        upper[row] = (upper[row] - dot(&own[row + 1..], done)) / own[row];
+    }
+}
+
+/// Sum of products, in eight sums that the processor adds to side by side.
+#[inline(always)]
+pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let mut sums = [0.0; 8];
+    let (mut left, mut right) = (x.chunks_exact(8), y.chunks_exact(8));
+    for (x, y) in (&mut left).zip(&mut right) {
+        for ((sum, x), y) in sums.iter_mut().zip(x).zip(y) {
+            *sum += x * y;
+        }
+    }
+    let rest: f64 = left.remainder().iter().zip(right.remainder()).map(|(x, y)| x * y).sum();
+    let [a, b, c, d, e, f, g, h] = sums;
+    ((a + e) + (b + f)) + ((c + g) + (d + h)) + rest
+}
+
 /// Solves `Aᵀ x = r` in place.
-#[inline]
+#[inline(always)]
 pub(super) fn solve_transposed(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64]) {
     for k in 0..n {
         r[k] /= lu[k * n + k];
@@ -119,7 +156,7 @@ pub(super) fn solve_transposed(lu: &[f64], n: usize, pivots: &[usize], r: &mut [
     }
 }
 
-#[inline]
+#[inline(always)]
 pub(super) fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
@@ -127,7 +164,7 @@ pub(super) fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
 }
 
 /// `out -= A B` with `A` `rows` by `inner` and `B` `inner` by `columns`.
-#[inline]
+#[inline(always)]
 pub(super) fn subtract_product(
     a: &[f64],
     b: &[f64],
@@ -135,6 +172,15 @@ pub(super) fn subtract_product(
     columns: usize,
     out: &mut [f64],
 ) {
+    if columns == 1 {
+        for (row, target) in a.chunks_exact(inner).zip(out) {
+            *target -= dot(row, b);
+        }
+        return;
+    }
+    if inner >= LARGE && columns >= MANY {
+        return super::large::subtract_product(a, b, inner, columns, out);
+    }
     for (row, target) in a.chunks_exact(inner).zip(out.chunks_exact_mut(columns)) {
         for (factor, source) in row.iter().zip(b.chunks_exact(columns)) {
             if *factor != 0.0 {
@@ -145,7 +191,7 @@ pub(super) fn subtract_product(
 }
 
 /// `out -= Aᵀ x` with `A` `x.len()` by `out.len()`.
-#[inline]
+#[inline(always)]
 pub(super) fn subtract_transposed(a: &[f64], x: &[f64], out: &mut [f64]) {
     for (row, factor) in a.chunks_exact(out.len()).zip(x) {
         axpy(-factor, row, out);

@@ -1,52 +1,39 @@
-//! Factorisation of large dense blocks: as many columns at once as the processor's caches like.
+//! The kernels of large dense blocks, by the library of dense linear algebra.
 //!
 //! The same elimination with row exchanges as for small blocks, in panels of [`WIDTH`] columns: the
-//! rest of the matrix is passed through once a panel in place of once a column, with the widest
-//! instructions of the processor. G. Golub, C. Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
+//! rest of the matrix is passed through once a panel in place of once a column, as a product of
+//! matrices. G. Golub, C. Van Loan, *Matrix Computations* (2013), algorithm 3.4.1.
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{
+    solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::prelude::{Reborrow, ReborrowMut};
+use faer::{Accum, MatMut, MatRef, Par};
 
 /// Columns of a panel.
-const WIDTH: usize = 8;
-
-struct Elimination<'e> {
-    a: &'e mut [f64],
-    n: usize,
-    pivots: &'e mut [usize],
-    sign: &'e mut f64,
-}
+const WIDTH: usize = 24;
 
 /// Factorises the `n` by `n` matrix in place; `false` where a pivot vanishes or is not finite.
 /// `sign` is multiplied by the sign of the determinant.
 pub(super) fn factorise(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
-    pulp::Arch::new().dispatch(Elimination { a, n, pivots, sign })
-}
-
-impl pulp::NullaryFnOnce for Elimination<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn call(self) -> bool {
-        let Self { a, n, pivots, sign } = self;
-        for from in (0..n).step_by(WIDTH) {
-            let to = (from + WIDTH).min(n);
-            if !panel(a, n, (from, to), pivots, sign) {
-                return false;
-            }
-            if to == n {
-                break;
-            }
-            let (upper, lower) = a.split_at_mut(to * n);
-            let upper = &mut upper[from * n..];
-            upper_rows(upper, n, from, to);
-            for row in lower.chunks_exact_mut(n) {
-                subtract(row, upper, n, from, to);
-            }
+    for from in (0..n).step_by(WIDTH) {
+        let to = (from + WIDTH).min(n);
+        if !panel(a, n, (from, to), pivots, sign) {
+            return false;
         }
-        true
+        let whole = MatMut::from_row_major_slice_mut(&mut *a, n, n);
+        let (_, right) = whole.split_at_col_mut(from);
+        let (_, below) = right.split_at_row_mut(from);
+        let width = to - from;
+        let (own, mut upper, lower, rest) = below.split_at_mut(width, width);
+        solve_unit_lower_triangular_in_place(own.rb(), upper.rb_mut(), Par::Seq);
+        matmul(rest, Accum::Add, lower.rb(), upper.rb(), -1.0, Par::Seq);
     }
+    true
 }
 
 /// Eliminates the columns of one panel, in these columns only; rows are exchanged as a whole.
-#[inline(always)]
 fn panel(
     a: &mut [f64],
     n: usize,
@@ -73,45 +60,27 @@ fn panel(
     true
 }
 
-/// The panel's rows to the right of it.
-#[inline(always)]
-fn upper_rows(upper: &mut [f64], n: usize, from: usize, to: usize) {
-    for row in 1..to - from {
-        let (above, own) = upper.split_at_mut(row * n);
-        for p in 0..row {
-            let factor = own[from + p];
-            let source = &above[p * n + to..(p + 1) * n];
-            for (entry, value) in own[to..n].iter_mut().zip(source) {
-                *entry -= factor * value;
-            }
-        }
-    }
+/// Solves `L U X = R` in place for many right-hand sides, rows exchanged before.
+pub(super) fn solve(lu: &[f64], n: usize, r: &mut [f64], columns: usize) {
+    let lu = MatRef::from_row_major_slice(lu, n, n);
+    let mut r = MatMut::from_row_major_slice_mut(r, n, columns);
+    solve_unit_lower_triangular_in_place(lu, r.rb_mut(), Par::Seq);
+    solve_upper_triangular_in_place(lu, r.rb_mut(), Par::Seq);
 }
 
-/// Subtracts the panel's share from one row below it, to the right of it.
-#[inline(always)]
-fn subtract(row: &mut [f64], upper: &[f64], n: usize, from: usize, to: usize) {
-    let (factors, rest) = row.split_at_mut(to);
-    let factors = &factors[from..];
-    let mut rows = upper.chunks_exact(n).map(|row| &row[to..]);
-    if factors.len() < WIDTH {
-        for (factor, source) in factors.iter().zip(rows) {
-            rest.iter_mut().zip(source).for_each(|(entry, value)| *entry -= factor * value);
-        }
-        return;
-    }
-    let mut next = || rows.next().unwrap_or(&[]);
-    let [u0, u1, u2, u3, u4, u5, u6, u7] = std::array::from_fn(|_| next());
-    let count = rest.len();
-    let [u0, u1, u2, u3] = [u0, u1, u2, u3].map(|u: &[f64]| &u[..count]);
-    let [u4, u5, u6, u7] = [u4, u5, u6, u7].map(|u: &[f64]| &u[..count]);
-    for at in 0..count {
-        let first =
-            factors[0] * u0[at] + factors[1] * u1[at] + factors[2] * u2[at] + factors[3] * u3[at];
-        let second =
-            factors[4] * u4[at] + factors[5] * u5[at] + factors[6] * u6[at] + factors[7] * u7[at];
-        rest[at] -= first + second;
-    }
+/// `out -= A B` with `A` `rows` by `inner` and `B` `inner` by `columns`.
+pub(super) fn subtract_product(
+    a: &[f64],
+    b: &[f64],
+    inner: usize,
+    columns: usize,
+    out: &mut [f64],
+) {
+    let rows = a.len() / inner;
+    let a = MatRef::from_row_major_slice(a, rows, inner);
+    let b = MatRef::from_row_major_slice(b, inner, columns);
+    let out = MatMut::from_row_major_slice_mut(out, rows, columns);
+    matmul(out, Accum::Add, a, b, -1.0, Par::Seq);
 }
 
 #[cfg(test)]
@@ -119,10 +88,38 @@ mod tests {
     use super::super::kernel;
     use super::*;
 
+    // Source: the same loops a row at a time.
+    #[test]
+    fn products_and_solves_are_those_of_small_blocks() {
+        let n = 67;
+        let entry = |k: usize| (0.7 * (k * k) as f64 + 0.3).sin();
+        let mut lu: Vec<f64> = (0..n * n).map(entry).collect();
+        assert!(kernel::plain(&mut lu, n, &mut vec![0; n], &mut 1.0));
+        let b: Vec<f64> = (0..n * n).map(|k| entry(k + 5)).collect();
+        let near = |x: &[f64], y: &[f64]| x.iter().zip(y).all(|(x, y)| (x - y).abs() < 1e-11);
+        let (mut x, y) = (b.clone(), b.clone());
+        solve(&lu, n, &mut x, n);
+        let none: Vec<usize> = (0..n).collect();
+        for (at, column) in (0..n).map(|at| (at, y.iter().skip(at).step_by(n).copied())) {
+            let mut column: Vec<f64> = column.collect();
+            kernel::solve(&lu, n, &none, &mut column, 1);
+            let own: Vec<f64> = x.iter().skip(at).step_by(n).copied().collect();
+            assert!(near(&column, &own));
+        }
+        let mut z = b.clone();
+        subtract_product(&lu, &b, n, n, &mut z);
+        for column in 0..n {
+            let of = |m: &[f64]| m.iter().skip(column).step_by(n).copied().collect::<Vec<_>>();
+            let mut out = of(&b);
+            kernel::subtract_product(&lu, &of(&b), n, 1, &mut out);
+            assert!(near(&out, &of(&z)));
+        }
+    }
+
     // Source: the same elimination a column at a time.
     #[test]
     fn panels_change_nothing_but_the_rounding() {
-        for n in [1, 7, 8, 9, 40, 83] {
+        for n in [1, 23, 24, 25, 40, 83] {
             let entry = |k: usize| (0.7 * (k * k) as f64 + 0.3).sin();
             let mut a: Vec<f64> = (0..n * n).map(entry).collect();
             let mut b = a.clone();

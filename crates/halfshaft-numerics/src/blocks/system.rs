@@ -186,7 +186,7 @@ impl BlockSystem {
             }
         }
         match factors {
-            Some(factors) => factors.run(),
+            Some(factors) => pulp::Arch::new().dispatch(Run(factors)),
             None => Ok(()),
         }
     }
@@ -205,12 +205,25 @@ impl BlockSystem {
     }
 }
 
+/// The factorisation, compiled for the widest instructions of the processor.
+struct Run<'f>(&'f mut Factors);
+
+impl pulp::NullaryFnOnce for Run<'_> {
+    type Output = Result<(), Error>;
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        self.0.run()
+    }
+}
+
 impl Factors {
     /// Sign of the determinant of the bordered matrix.
     pub fn sign(&self) -> f64 {
         self.sign
     }
 
+    #[inline(always)]
     fn run(&mut self) -> Result<(), Error> {
         self.sign = 1.0;
         let last = self.system.pattern.nodes() - 1;
@@ -241,6 +254,7 @@ impl Factors {
     }
 
     /// Takes one node out: divides its row of blocks and subtracts from what is joined.
+    #[inline(always)]
     fn eliminate(&mut self, position: usize) -> Result<(), Error> {
         let system = &mut self.system;
         let (m, k) = (system.size, system.borders);

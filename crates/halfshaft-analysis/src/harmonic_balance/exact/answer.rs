@@ -185,6 +185,7 @@ impl<'s> Search<'s> {
             messages: self.explorer.messages.clone(),
             lost: Vec::new(),
             exact: true,
+            cut: false,
         };
         all.counted.add(self.explorer.counted);
         let responses = Responses { setting: self.setting, tolerance: self.tolerance };

@@ -1,7 +1,7 @@
 //! Lines that ask for trouble: whatever they are, answers are responses, and there is an end to it.
 
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
-use proptest::test_runner::TestCaseError;
+use proptest::test_runner::{RngSeed, TestCaseError};
 
 use super::independent::{brute_force, responses_at, waveform};
 use super::lines::{Model, duffing, held, keys};
@@ -349,7 +349,14 @@ fn random_line(numbers: &[f64]) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, max_shrink_iters: 30, ..ProptestConfig::default() })]
+    // The same lines each time: some of all lines are chaotic over most of a range and take a minute.
+    #![proptest_config(ProptestConfig {
+        cases: 24,
+        max_shrink_iters: 30,
+        rng_seed: RngSeed::Fixed(3),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
     #[test]
     fn any_line_is_answered(
         numbers in proptest::collection::vec(0.0..1.0_f64, 60), low in 0.1..3.0_f64, wide in 0.2..3.0_f64,
