@@ -33,6 +33,8 @@ use crate::header::header;
 
 /// Values of the parameter at which response curves are followed, beside the model's own.
 const SLICES: u32 = 5;
+/// Values at which responses at the lowest speed are counted.
+const COUNTED: usize = 7;
 /// Rows and columns of the count of responses.
 const GRID: usize = 121;
 
@@ -316,7 +318,7 @@ impl Plane<'_, '_> {
         // Half a step inside, so that a curve's ends on the border do not decide.
         let parameter: Vec<f64> =
             (0..GRID).map(|k| from + (to - from) * (0.5 + k as f64) / GRID as f64).collect();
-        let first = self.responses_at_low_speed(shape, &parameter, observer);
+        let first = self.responses_at_low_speed(shape, curves, &parameter, observer);
         let mut count = Vec::with_capacity(GRID);
         for (value, first) in parameter.iter().zip(first) {
             let mut folds: Vec<(f64, f64)> = Vec::new();
@@ -348,40 +350,71 @@ impl Plane<'_, '_> {
         Some(ResponseCount { frequency, parameter, count })
     }
 
-    /// Responses at the lowest speed for each value: counted at a few values by following the drive,
-    /// the others like their neighbour.
+    /// Responses at the lowest speed for each value: counted at a few values by following the drive;
+    /// from the nearest of them to each other value two more or less for each fold that leaves the
+    /// window there.
     fn responses_at_low_speed(
         &self,
         shape: &Shape,
+        curves: &[FoldCurve],
         values: &[f64],
         observer: &dyn Observer,
     ) -> Vec<u32> {
-        const COUNTED: usize = 5;
-        let mut counted = Counted::default();
         let every = values.len().div_ceil(COUNTED);
-        let mut last = 1;
-        (0..values.len())
-            .map(|index| {
-                if index % every == every / 2 || index == 0 {
-                    let found = self.lines.at(values[index]).and_then(|equations| {
-                        let mut setting = Setting::new(equations, Some(self.window), 1).ok()?;
-                        setting.odd = shape.odd;
-                        let seeds = over_drive(
-                            &setting.line,
-                            &setting.rest,
-                            shape.base,
-                            shape.odd,
-                            LEAST_HARMONICS,
-                            self.window.0.max(1e-3 * self.window.1),
-                            observer,
-                            &mut counted,
-                        );
-                        u32::try_from(seeds.len()).ok().filter(|count| *count > 0)
-                    });
-                    last = found.unwrap_or(last);
-                }
-                last
+        let counted: Vec<(usize, f64)> = (0..values.len())
+            .filter(|index| index % every == every / 2)
+            .filter_map(|index| {
+                let count = self.followed_over_drive(shape, values[index], observer)?;
+                Some((index, count - self.beyond_low_speed(curves, values[index])))
             })
-            .collect()
+            .collect();
+        let at = |index: usize| {
+            let nearest = counted.iter().min_by_key(|(known, _)| known.abs_diff(index));
+            let rest = nearest.map_or(1.0, |(_, rest)| *rest);
+            rest + self.beyond_low_speed(curves, values[index])
+        };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
+        (0..values.len()).map(|index| at(index).max(0.0) as u32).collect()
+    }
+
+    /// Responses at the lowest speed that the curve over the drive passes.
+    fn followed_over_drive(
+        &self,
+        shape: &Shape,
+        value: f64,
+        observer: &dyn Observer,
+    ) -> Option<f64> {
+        let equations = self.lines.at(value)?;
+        let mut setting = Setting::new(equations, Some(self.window), 1).ok()?;
+        setting.odd = shape.odd;
+        let seeds = over_drive(
+            &setting.line,
+            &setting.rest,
+            shape.base,
+            shape.odd,
+            LEAST_HARMONICS,
+            self.window.0.max(1e-3 * self.window.1),
+            observer,
+            &mut Counted::default(),
+        );
+        (!seeds.is_empty()).then_some(seeds.len() as f64)
+    }
+
+    /// Responses at the lowest speed for a value of the parameter that open or close at folds below
+    /// it, against those where these folds are within the window.
+    fn beyond_low_speed(&self, curves: &[FoldCurve], value: f64) -> f64 {
+        let (low, high) = self.window;
+        let mut sum = 0.0;
+        for samples in curves.iter().map(|curve| &curve.samples).filter(|list| list.len() > 1) {
+            let last = samples.len() - 1;
+            for (end, next) in [(&samples[0], &samples[1]), (&samples[last], &samples[last - 1])] {
+                let leaves = (end.frequency - low).abs() <= 1e-6 * (high - low);
+                let inside = (value - end.parameter) * (next.parameter - end.parameter) > 0.0;
+                if leaves && !inside {
+                    sum += 2.0 * end.opens();
+                }
+            }
+        }
+        sum
     }
 }

@@ -11,7 +11,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
 use super::line::Line;
-use super::problem::{Axis, Failure, Problem};
+use super::problem::{Axis, Problem};
 use super::system::{HarmonicSystem, Place};
 use super::tracer::{Counted, Sample, TraceSettings, Tracer, length};
 
@@ -22,6 +22,8 @@ pub(super) struct Seed {
     pub(super) u: Vec<f64>,
 }
 
+/// Halvings of the way between two samples of a curve over the drive.
+const HALVINGS: usize = 6;
 /// Drive at which a curve begins.
 pub(super) const FIRST_DRIVE: f64 = 1e-3;
 /// The same, and lower ones for torques so strong that it is no small response.
@@ -155,11 +157,35 @@ fn passage(tracer: &mut Tracer<'_, '_>, from: &Sample, to: &Sample) -> Option<Se
         return None;
     }
     let part = (1.0 - from.p) / (to.p - from.p);
-    let mut u: Vec<f64> = from.u.iter().zip(&to.u).map(|(a, b)| a + part * (b - a)).collect();
-    let size = length(&u);
-    let done: Result<_, Failure> = tracer.problem.at(&mut u, 1.0, size);
-    done.ok()?;
-    Some(Seed { set: from.set.clone(), u })
+    let mix = |(a, b): (&f64, &f64)| a + part * (b - a);
+    let guess: Vec<f64> = from.u.iter().zip(&to.u).map(mix).collect();
+    let seed = |u| Seed { set: from.set.clone(), u };
+    if let Some(u) = at_full_drive(tracer, &guess, (&from.u, &to.u)) {
+        return Some(seed(u));
+    }
+    // The curve bends between them: halve the way, on the curve, until it does no more.
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        let sample = tracer.on_segment((from, to), middle, &from.set).ok()?;
+        if let Some(u) = at_full_drive(tracer, &sample.u, (&from.u, &to.u)) {
+            return Some(seed(u));
+        }
+        if (sample.p - 1.0) * (from.p - 1.0) > 0.0 { low = middle } else { high = middle }
+    }
+    None
+}
+
+/// The response of drive 1 from a guess between two others, no further from it than they are apart.
+fn at_full_drive(
+    tracer: &mut Tracer<'_, '_>,
+    guess: &[f64],
+    (from, to): (&[f64], &[f64]),
+) -> Option<Vec<f64>> {
+    let mut u = guess.to_vec();
+    tracer.problem.at(&mut u, 1.0, length(guess)).ok()?;
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+    (apart(&u, guess) <= apart(from, to)).then_some(u)
 }
 
 /// The line at rest: the mean of every kept group, nothing else.
