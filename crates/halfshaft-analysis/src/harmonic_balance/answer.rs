@@ -106,7 +106,7 @@ impl Setting {
     ) -> Vec<(Seed, f64, String)> {
         let (low, high) = self.range;
         let at = |k: u32| low + (high - low) * f64::from(k) / f64::from(INNER_SEEDS + 1);
-        let inner = (1..=INNER_SEEDS).map(|k| (at(k), format!("a response at {:.6} rad/s", at(k))));
+        let inner = (1..=INNER_SEEDS).map(|k| (at(k), format!("response at {:.6} rad/s", at(k))));
         let ends =
             [(low, "low end of the range".to_owned()), (high, "high end of the range".to_owned())];
         let (highest, orders) = (self.excited(), self.orders());

@@ -68,10 +68,12 @@ pub(super) struct FoldSystem<'f> {
 }
 
 /// Newton iterations at most.
-const MOST_ITERATIONS: usize = 9;
+const MOST_ITERATIONS: usize = 12;
 /// A correction below this has left an error of its square (or, with difference quotients, of a small
 /// part of itself).
 const CONVERGED: f64 = 1e-9;
+/// Steps that shorten no faster than this ask for derivatives anew.
+const SLOW: f64 = 0.05;
 /// Relative step of difference quotients.
 const STEP: f64 = 1e-5;
 
@@ -118,9 +120,28 @@ impl<'f> FoldSystem<'f> {
         (b, c): (&[f64], &[f64]),
     ) -> Result<(), Failure> {
         self.evaluate_at(u, frequency, parameter)?;
-        self.residual.copy_from_slice(&self.problem.system.residual);
         self.by_frequency.copy_from_slice(&self.problem.system.by_frequency);
         self.by_parameter.copy_from_slice(self.problem.by_parameter());
+        self.bordered_solutions((b, c))?;
+        self.derivatives(u, frequency, parameter)
+    }
+
+    /// Residual and `g` alone at a point.
+    fn evaluate_values(
+        &mut self,
+        (u, frequency, parameter): (&[f64], f64, f64),
+        borders: (&[f64], &[f64]),
+    ) -> Result<(), Failure> {
+        self.problem.place.frequency = frequency;
+        self.problem.line_at(parameter)?;
+        let place = self.problem.place_at(parameter);
+        self.problem.system.evaluate(u, place, true);
+        self.bordered_solutions(borders)
+    }
+
+    /// `g` with its vectors from the Jacobian at the response last evaluated.
+    fn bordered_solutions(&mut self, (b, c): (&[f64], &[f64])) -> Result<(), Failure> {
+        self.residual.copy_from_slice(&self.problem.system.residual);
         self.truncation = self.problem.system.truncation;
         self.problem.system.fill(&mut self.bordered);
         self.bordered.set_column(0, b);
@@ -135,7 +156,7 @@ impl<'f> FoldSystem<'f> {
         self.w.fill(0.0);
         let mut one = [1.0];
         factors.solve_transposed(&mut self.w, &mut one);
-        self.derivatives(u, frequency, parameter)
+        Ok(())
     }
 
     /// Derivatives of `g`; leaves the augmented system's matrix filled with the Jacobian at `u`.
@@ -178,7 +199,8 @@ impl<'f> FoldSystem<'f> {
         Ok(())
     }
 
-    /// Newton's method under the linear condition `row · (u, Ω, λ) = target`, lengths by `spans`.
+    /// Newton's method under the linear condition `row · (u, Ω, λ) = target`, lengths by `spans`. The
+    /// derivatives are made anew only where those of the first step no longer lead on.
     pub(super) fn correct(
         &mut self,
         point: &mut (Vec<f64>, f64, f64),
@@ -187,10 +209,16 @@ impl<'f> FoldSystem<'f> {
         target: f64,
         spans: [f64; 3],
     ) -> Result<usize, Failure> {
-        let mut before = f64::INFINITY;
+        let (mut before, mut rate) = (f64::INFINITY, f64::INFINITY);
         for iteration in 1..=MOST_ITERATIONS {
-            self.evaluate((&point.0, point.1, point.2), borders)?;
-            self.factorise_augmented((row, row_frequency, row_parameter))?;
+            let here = (&point.0[..], point.1, point.2);
+            if rate > SLOW {
+                self.evaluate(here, borders)?;
+                self.factorise_augmented((row, row_frequency, row_parameter))?;
+                rate = 0.0;
+            } else {
+                self.evaluate_values(here, borders)?;
+            }
             let mut step: Vec<f64> = self.residual.iter().map(|r| -r).collect();
             let held: f64 = row.iter().zip(&point.0).map(|(a, b)| a * b).sum::<f64>()
                 + row_frequency * point.1
@@ -211,7 +239,10 @@ impl<'f> FoldSystem<'f> {
             point.0.iter_mut().zip(&step).for_each(|(u, s)| *u += s);
             point.1 += border[0];
             point.2 += border[1];
-            if size <= CONVERGED {
+            if before.is_finite() {
+                rate = rate.max(size / before);
+            }
+            if size <= CONVERGED && size * rate <= CONVERGED * CONVERGED.sqrt() {
                 return Ok(iteration);
             }
             before = size;

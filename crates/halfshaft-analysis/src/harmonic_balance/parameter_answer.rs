@@ -64,7 +64,7 @@ pub(super) fn solve(
             observer,
             &mut counted,
         );
-        let origin = format!("a response at {} = {value}", range.address);
+        let origin = format!("response at {} = {value}", range.address);
         seeds.extend(found.into_iter().map(|seed| (seed, *value, origin.clone())));
     }
     let family = |value: f64| lines.at(value);

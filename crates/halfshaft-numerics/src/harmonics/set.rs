@@ -1,10 +1,22 @@
 //! Which orders a truncated Fourier series has, and where their coefficients stand.
 
+use std::sync::Arc;
+
 /// Orders of a truncated Fourier series, ascending; order 0 is the mean.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct HarmonicSet {
-    orders: Vec<usize>,
+    /// Shared: each of the responses of a branch has its own copy of the set.
+    orders: Arc<[usize]>,
 }
+
+impl PartialEq for HarmonicSet {
+    fn eq(&self, other: &Self) -> bool {
+        // Either all orders or the odd ones, so that kind and number tell.
+        self.is_odd() == other.is_odd() && self.orders.len() == other.orders.len()
+    }
+}
+
+impl Eq for HarmonicSet {}
 
 impl HarmonicSet {
     /// The mean and every order up to `highest`.
@@ -64,6 +76,11 @@ impl HarmonicSet {
     /// is order `j` of `from`; what this set lacks is dropped, what `from` lacks is zero.
     pub fn take(&self, from: &Self, factor: usize, source: &[f64], target: &mut [f64]) {
         target.fill(0.0);
+        if factor == 1 && self.is_odd() == from.is_odd() {
+            let shared = source.len().min(target.len());
+            target[..shared].copy_from_slice(&source[..shared]);
+            return;
+        }
         for (order, place) in from.places() {
             let Some(to) = self.place_of(factor * order) else { continue };
             target[to] = source[place];

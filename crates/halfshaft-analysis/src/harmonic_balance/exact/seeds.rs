@@ -65,7 +65,7 @@ pub(super) fn over_drive(
             let part = (1.0 - a.p()) / (b.p() - a.p());
             let Ok(guess) = curve.between(a, b, part) else { continue };
             let Ok(orbit) = curve.shooter.at(&guess.state, 1.0) else { continue };
-            let origin = format!("a response at {frequency:.6} rad/s");
+            let origin = format!("response at {frequency:.6} rad/s");
             found.push(Guess { kind: branch.kind, state: orbit.state, p: frequency, origin });
         }
     }
