@@ -11,11 +11,13 @@
 //! | `modal` | `modes` | symmetric eigenproblem without the rigid-body motion |
 //! | `time_response` | `simulate` | order 8, dense output, energy balance |
 //! | `shock` | `shock` | the same, single equations, multiple scales |
+//! | `basins` | `basins` | many motions side by side |
 //! | `averaging` | `resonance`, `folds` | closed form of one mode |
 //! | `shooting` | orbits by the motion itself | Taylor series between the kinks of laws |
 //! | `verification` | what the full equations say | shooting |
 
 mod averaging;
+mod basins;
 mod check;
 mod equilibrium;
 mod error;
@@ -83,6 +85,7 @@ pub fn ask(
                 Answer::Resonance(averaging::solve(line, question, observer)?)
             }
         },
+        Question::Basins(question) => Answer::Basins(basins::solve(line, question, observer)?),
         Question::Folds(question) => match question.method {
             ResonanceMethod::HarmonicBalance => {
                 Answer::Folds(harmonic_balance::solve_folds(line, question, observer)?)

@@ -4,8 +4,8 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::{
-    CheckResult, Column, FoldsResult, Header, HistoryResult, ModesResult, Named, ReportResult,
-    ResonanceResult, StaticResult, StudyResult, Table,
+    BasinsResult, CheckResult, Column, FoldsResult, Header, HistoryResult, ModesResult, Named,
+    ReportResult, ResonanceResult, StaticResult, StudyResult, Table,
 };
 
 /// Any result; which one, its `analysis` says.
@@ -24,6 +24,8 @@ pub enum Answer {
     Resonance(ResonanceResult),
     /// Of `folds`.
     Folds(FoldsResult),
+    /// Of `basins`.
+    Basins(BasinsResult),
     /// Of `run`.
     Study(StudyResult),
     /// Of `report`.
@@ -42,6 +44,7 @@ impl<'de> Deserialize<'de> for Answer {
             "simulate" | "shock" => serde_json::from_value(value).map(Self::History),
             "resonance" => serde_json::from_value(value).map(Self::Resonance),
             "folds" => serde_json::from_value(value).map(Self::Folds),
+            "basins" => serde_json::from_value(value).map(Self::Basins),
             "run" => serde_json::from_value(value).map(Self::Study),
             "report" => serde_json::from_value(value).map(Self::Report),
             other => {
@@ -63,6 +66,7 @@ impl Answer {
             Self::History(result) => &result.header,
             Self::Resonance(result) => &result.header,
             Self::Folds(result) => &result.header,
+            Self::Basins(result) => &result.header,
             Self::Study(result) => &result.header,
             Self::Report(result) => &result.header,
         }
@@ -95,6 +99,7 @@ impl Answer {
             Self::Folds(result) => numbered("curve", result.curves.iter().cloned()),
             Self::Static(result) => vec![("equilibria".to_owned(), equilibria(result))],
             Self::Modes(result) => vec![("modes".to_owned(), modes(result))],
+            Self::Basins(result) => vec![("basins".to_owned(), result.table())],
             Self::Check(_) | Self::Study(_) | Self::Report(_) => Vec::new(),
         }
     }

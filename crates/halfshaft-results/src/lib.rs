@@ -13,6 +13,7 @@
 //! a number must stand and as `None` where none need.
 
 mod answer;
+mod basins;
 mod check;
 mod equilibrium;
 mod folds;
@@ -28,6 +29,7 @@ mod study;
 mod table;
 
 pub use answer::Answer;
+pub use basins::{Attractor, BasinGrid, BasinsResult};
 pub use check::{
     CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
     CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,

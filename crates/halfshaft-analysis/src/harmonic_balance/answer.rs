@@ -123,7 +123,7 @@ impl Setting {
             curves.push(curve);
         }
         for (seed, frequency) in tips(self, curves, harmonics, observer, counted) {
-            seeds.push((seed, frequency, format!("a resonance at {frequency:.6} rad/s")));
+            seeds.push((seed, frequency, format!("resonance at {frequency:.6} rad/s")));
         }
         seeds
     }
@@ -217,7 +217,7 @@ fn drawn_backbones(
 }
 
 /// All branches with harmonics as unknowns.
-fn by_harmonics(
+pub(super) fn by_harmonics(
     setting: &Setting,
     question: &ResonanceQuestion,
     observer: &dyn Observer,

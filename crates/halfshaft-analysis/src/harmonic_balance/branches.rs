@@ -30,7 +30,7 @@ pub(crate) struct TracedBranch {
 
 impl TracedBranch {
     /// The stable part of the stretch from a sample to the next.
-    fn stable_between(&self, at: usize) -> Option<(f64, f64)> {
+    pub(super) fn stable_between(&self, at: usize) -> Option<(f64, f64)> {
         let special = self.specials.iter().find(|special| special.after == at);
         let end = |at: usize| (self.samples[at].p, self.stability[at].is_stable());
         stretch(end(at), end(at + 1), special.map(|special| special.sample.p))
@@ -59,8 +59,8 @@ pub(crate) struct Collected {
 /// Work on one question after which nothing further is followed, in samples of few harmonics.
 const MOST_WORK: f64 = 6000.0;
 impl Collected {
-    /// Whether so much has been found that nothing further is followed; tells that it was asked.
-    pub(super) fn is_full(&mut self) -> bool {
+    /// Whether so much has been found that nothing further is followed, which is noted.
+    pub(super) fn cut_off(&mut self) -> bool {
         let samples = self.branches.iter().flat_map(|branch| &branch.samples);
         let full = samples.map(Sample::work).sum::<f64>() > MOST_WORK;
         self.cut |= full;
@@ -152,7 +152,7 @@ impl<'j, 'f> Job<'j, 'f> {
             if all.branches.iter().any(near) {
                 continue;
             }
-            if all.is_full() {
+            if all.cut_off() {
                 break;
             }
             let start = self.start_set(&seed.set);

@@ -143,7 +143,7 @@ impl Job<'_, '_> {
                     continue;
                 }
                 let fork = Fork::new(&branch, special);
-                if is_end(&all.branches, &fork) || all.is_full() {
+                if is_end(&all.branches, &fork) || all.cut_off() {
                     continue;
                 }
                 match self.switch(all, at, special, &fork) {

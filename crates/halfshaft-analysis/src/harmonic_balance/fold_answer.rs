@@ -1,9 +1,9 @@
 //! From a line to the answer of `folds --method harmonic-balance`.
 //!
 //! Response curves at a few values of the parameter give folds; from each that lies on no known curve
-//! a curve of folds is followed through the plane. How many responses coexist at a point of the plane
-//! follows from the curves: every fold on the way from low speed opens or closes two of them.
+//! a curve of folds is followed through the plane.
 
+use std::cell::Cell;
 use std::rc::Rc;
 
 use halfshaft_dynamics::EquationsOfMotion;
@@ -12,8 +12,8 @@ use halfshaft_model::{ChangeError, Driveline};
 use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
-    Column, FoldsResult, Header, Named, Reason, ResponseCount, SpecialKind, SpecialPoint, Status,
-    Table, Termination,
+    Column, FoldsResult, Header, Named, Reason, SpecialKind, SpecialPoint, Status, Table,
+    Termination,
 };
 
 use super::answer::Setting;
@@ -25,18 +25,15 @@ use super::fold_trace::{FoldCurve, FoldSettings, FoldTracer};
 use super::line::{Line, nonlinear};
 use super::lines::Lines;
 use super::problem::{Axis, Problem};
-use super::seeds::over_drive;
 use super::system::{HarmonicSystem, Place};
-use super::tracer::{Counted, LEAST_HARMONICS};
+use super::tracer::Counted;
 use crate::error::AnalysisError;
 use crate::header::header;
 
 /// Values of the parameter at which response curves are followed, beside the model's own.
 const SLICES: u32 = 5;
-/// Values at which responses at the lowest speed are counted.
-const COUNTED: usize = 7;
-/// Rows and columns of the count of responses.
-const GRID: usize = 121;
+/// How much more error is tolerated where laws have kinks.
+const AT_KINKS: f64 = 100.0;
 
 /// Answers `folds` by harmonic balance.
 pub(crate) fn solve(
@@ -52,7 +49,7 @@ pub(crate) fn solve(
     let mut values: Vec<f64> = own.into_iter().collect();
     values.extend((0..SLICES).rev().map(slice));
     let window = window(&lines, &values, question)?;
-    let plane = Plane { lines: &lines, question, window, values: &values };
+    let plane = Plane { lines: &lines, question, window, values: &values, cut: Cell::new(false) };
     let (curves, counted, cancelled) = plane.curves(observer)?;
     let mut result = plane.result(line, &curves, counted, observer)?;
     if cancelled {
@@ -94,18 +91,20 @@ fn window(
 }
 
 /// The plane of speed and parameter.
-struct Plane<'p, 'q> {
-    lines: &'p Lines<'q>,
-    question: &'p FoldsQuestion,
-    window: (f64, f64),
+pub(super) struct Plane<'p, 'q> {
+    pub(super) lines: &'p Lines<'q>,
+    pub(super) question: &'p FoldsQuestion,
+    pub(super) window: (f64, f64),
     values: &'p [f64],
+    /// Whether at some value more responses were left than were followed.
+    cut: Cell<bool>,
 }
 
 /// A line of the family that stands for all: shape, oddness, base.
-struct Shape {
+pub(super) struct Shape {
     line: Line,
-    odd: bool,
-    base: f64,
+    pub(super) odd: bool,
+    pub(super) base: f64,
     flags: Vec<bool>,
 }
 
@@ -115,10 +114,22 @@ impl Plane<'_, '_> {
         FoldSettings {
             frequency: self.window,
             parameter: (self.question.parameter.from, self.question.parameter.to),
-            tolerance: self.question.tolerance,
+            tolerance: self.tolerance(),
             harmonics: self.question.harmonics,
             longest: (8.0 / points).min(0.2),
         }
+    }
+
+    /// Error of the waveform that is tolerated: more where laws have kinks, at which harmonics die out
+    /// slowly and a curve of folds would take thousands of times many of them.
+    fn tolerance(&self) -> f64 {
+        let asked = self.question.tolerance;
+        if self.kinks() { (AT_KINKS * asked).clamp(asked, 1e-3_f64.max(asked)) } else { asked }
+    }
+
+    fn kinks(&self) -> bool {
+        let first = self.values.iter().find_map(|value| self.lines.at(*value));
+        first.is_some_and(|equations| Line::new(equations).has_kinks())
     }
 
     /// What all lines of the family have in common.
@@ -126,7 +137,11 @@ impl Plane<'_, '_> {
         let mut shape: Option<Shape> = None;
         for equations in self.values.iter().filter_map(|value| self.lines.at(*value)) {
             let flags = nonlinear(&equations);
-            let setting = Setting::new(equations, Some(self.window), self.question.mode)?;
+            let setting = match Setting::new(equations, Some(self.window), self.question.mode) {
+                // Without torques nothing folds, but beside it there may be something.
+                Err(AnalysisError::NoExcitation { .. }) => continue,
+                setting => setting?,
+            };
             shape = Some(match shape {
                 None => Shape { odd: setting.odd, base: setting.base, flags, line: setting.line },
                 Some(known) => {
@@ -187,8 +202,11 @@ impl Plane<'_, '_> {
         observer: &dyn Observer,
         counted: &mut Counted,
     ) -> Result<Vec<(HarmonicSet, Vec<f64>, f64)>, AnalysisError> {
-        let mut setting =
-            Setting::new(Rc::clone(&equations), Some(self.window), self.question.mode)?;
+        let own = Rc::clone(&equations);
+        let mut setting = match Setting::new(own, Some(self.window), self.question.mode) {
+            Err(AnalysisError::NoExcitation { .. }) => return Ok(Vec::new()),
+            setting => setting?,
+        };
         setting.odd = shape.odd;
         setting.line = Line::flagged(equations, &shape.flags);
         let seeds = setting.seeds(self.question.harmonics, observer, counted);
@@ -197,13 +215,14 @@ impl Plane<'_, '_> {
             axis: Axis::Frequency,
             place: Place { frequency: self.window.0, drive: 1.0 },
             base: shape.base,
-            settings: setting.trace_settings(self.question.tolerance, self.question.harmonics),
+            settings: setting.trace_settings(self.tolerance(), self.question.harmonics),
             observer,
             doublings: false,
             stability: StabilityMethod::default(),
             judged: false,
         };
         let collected = job.collect(&seeds);
+        self.cut.set(self.cut.get() || collected.cut);
         let folds = collected.branches.iter().flat_map(|branch| &branch.specials);
         let folds = folds.filter(|special| special.kind == SpecialKind::Fold && special.located);
         Ok(folds.map(|f| (f.sample.set.clone(), f.sample.u.clone(), f.sample.p)).collect())
@@ -227,6 +246,12 @@ impl Plane<'_, '_> {
                 self.question.parameter.from,
                 self.question.parameter.to
             ));
+        }
+        if self.cut.get() {
+            header.warnings.push(
+                "responses are so many here that not all were searched for folds; ask for a narrower range"
+                    .to_owned(),
+            );
         }
         self.say(&counted, &mut header);
         let tables = curves.iter().map(|curve| self.table(&shape, curve)).collect();
@@ -263,6 +288,13 @@ impl Plane<'_, '_> {
             self.question.parameter.address,
             at.join(", ")
         ));
+        if self.kinks() && self.question.harmonics.is_none() {
+            header.assumptions.push(format!(
+                "laws with kinks: waveforms along the curves are held to {:.0e}; `resonance` locates the \
+                 folds at one value by exact orbits",
+                self.tolerance()
+            ));
+        }
         header
             .assumptions
             .push(format!("{} steps and {} Newton iterations", counted.steps, counted.iterations));
@@ -301,120 +333,5 @@ impl Plane<'_, '_> {
             Column::new(name, unit, rows.iter().map(|row| row[index]).collect())
         });
         Table::new(columns.collect())
-    }
-
-    /// Responses over a grid of the plane: those at the lowest speed, and two more or less at each
-    /// fold from there.
-    fn count(
-        &self,
-        shape: &Shape,
-        curves: &[FoldCurve],
-        observer: &dyn Observer,
-    ) -> Option<ResponseCount> {
-        let (low, high) = self.window;
-        let (from, to) = (self.question.parameter.from, self.question.parameter.to);
-        let share = |k: usize| k as f64 / (GRID - 1) as f64;
-        let frequency: Vec<f64> = (0..GRID).map(|k| low + (high - low) * share(k)).collect();
-        // Half a step inside, so that a curve's ends on the border do not decide.
-        let parameter: Vec<f64> =
-            (0..GRID).map(|k| from + (to - from) * (0.5 + k as f64) / GRID as f64).collect();
-        let first = self.responses_at_low_speed(shape, curves, &parameter, observer);
-        let mut count = Vec::with_capacity(GRID);
-        for (value, first) in parameter.iter().zip(first) {
-            let mut folds: Vec<(f64, f64)> = Vec::new();
-            for pair in curves.iter().flat_map(|curve| curve.samples.windows(2)) {
-                let (a, b) = (&pair[0], &pair[1]);
-                if (a.parameter < *value) == (b.parameter < *value) {
-                    continue;
-                }
-                let part = (value - a.parameter) / (b.parameter - a.parameter);
-                let near = if part < 0.5 { a } else { b };
-                folds.push((a.frequency + part * (b.frequency - a.frequency), near.opens()));
-            }
-            let row = frequency.iter().map(|frequency| {
-                let change: f64 = folds
-                    .iter()
-                    .filter(|(at, _)| at < frequency)
-                    .map(|(_, opens)| 2.0 * opens)
-                    .sum();
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a small count"
-                )]
-                let total = (f64::from(first) + change).max(0.0) as u32;
-                total
-            });
-            count.push(row.collect());
-        }
-        Some(ResponseCount { frequency, parameter, count })
-    }
-
-    /// Responses at the lowest speed for each value: counted at a few values by following the drive;
-    /// from the nearest of them to each other value two more or less for each fold that leaves the
-    /// window there.
-    fn responses_at_low_speed(
-        &self,
-        shape: &Shape,
-        curves: &[FoldCurve],
-        values: &[f64],
-        observer: &dyn Observer,
-    ) -> Vec<u32> {
-        let every = values.len().div_ceil(COUNTED);
-        let counted: Vec<(usize, f64)> = (0..values.len())
-            .filter(|index| index % every == every / 2)
-            .filter_map(|index| {
-                let count = self.followed_over_drive(shape, values[index], observer)?;
-                Some((index, count - self.beyond_low_speed(curves, values[index])))
-            })
-            .collect();
-        let at = |index: usize| {
-            let nearest = counted.iter().min_by_key(|(known, _)| known.abs_diff(index));
-            let rest = nearest.map_or(1.0, |(_, rest)| *rest);
-            rest + self.beyond_low_speed(curves, values[index])
-        };
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
-        (0..values.len()).map(|index| at(index).max(0.0) as u32).collect()
-    }
-
-    /// Responses at the lowest speed that the curve over the drive passes.
-    fn followed_over_drive(
-        &self,
-        shape: &Shape,
-        value: f64,
-        observer: &dyn Observer,
-    ) -> Option<f64> {
-        let equations = self.lines.at(value)?;
-        let mut setting = Setting::new(equations, Some(self.window), 1).ok()?;
-        setting.odd = shape.odd;
-        let seeds = over_drive(
-            &setting.line,
-            &setting.rest,
-            shape.base,
-            shape.odd,
-            LEAST_HARMONICS,
-            self.window.0.max(1e-3 * self.window.1),
-            observer,
-            &mut Counted::default(),
-        );
-        (!seeds.is_empty()).then_some(seeds.len() as f64)
-    }
-
-    /// Responses at the lowest speed for a value of the parameter that open or close at folds below
-    /// it, against those where these folds are within the window.
-    fn beyond_low_speed(&self, curves: &[FoldCurve], value: f64) -> f64 {
-        let (low, high) = self.window;
-        let mut sum = 0.0;
-        for samples in curves.iter().map(|curve| &curve.samples).filter(|list| list.len() > 1) {
-            let last = samples.len() - 1;
-            for (end, next) in [(&samples[0], &samples[1]), (&samples[last], &samples[last - 1])] {
-                let leaves = (end.frequency - low).abs() <= 1e-6 * (high - low);
-                let inside = (value - end.parameter) * (next.parameter - end.parameter) > 0.0;
-                if leaves && !inside {
-                    sum += 2.0 * end.opens();
-                }
-            }
-        }
-        sum
     }
 }

@@ -212,7 +212,8 @@ impl<'f> FoldSystem<'f> {
         let (mut before, mut rate) = (f64::INFINITY, f64::INFINITY);
         for iteration in 1..=MOST_ITERATIONS {
             let here = (&point.0[..], point.1, point.2);
-            if rate > SLOW {
+            let fresh = rate > SLOW;
+            if fresh {
                 self.evaluate(here, borders)?;
                 self.factorise_augmented((row, row_frequency, row_parameter))?;
                 rate = 0.0;
@@ -229,6 +230,11 @@ impl<'f> FoldSystem<'f> {
                 + (border[0] / spans[1]).powi(2)
                 + (border[1] / spans[2]).powi(2))
             .sqrt();
+            if !fresh && size > 0.7 * before && size.is_finite() {
+                // The kept derivatives lead no further.
+                rate = f64::INFINITY;
+                continue;
+            }
             if !size.is_finite() || (iteration > 3 && size > 0.7 * before) {
                 return if before < 1e3 * CONVERGED {
                     Ok(iteration)

@@ -70,8 +70,13 @@ impl Touch {
             .min_by(|a, b| (a.value - self.level).abs().total_cmp(&(b.value - self.level).abs()));
         let side = if nearest.is_none_or(|extreme| extreme.top) { "below" } else { "above" };
         let name = &line.equations.connections[self.connection].name;
-        format!("the twist of `{name}` touches {} rad from {side}", self.level)
+        format!("the twist of `{name}` touches {} rad from {side}", six_digits(self.level))
     }
+}
+
+/// A number rounded to six digits, for words.
+pub(super) fn six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// How often a series with these turning points passes a level within a period.

@@ -21,20 +21,16 @@ pub(super) fn jumps(setting: &Setting, branches: &[TracedBranch]) -> Vec<JumpSpe
     jumps
 }
 
+/// Samples to either side of a fold that are asked for their stability, beside the nearest.
+const FARTHEST: usize = 2;
+
 fn jump(
     setting: &Setting,
     branches: &[TracedBranch],
     branch: &TracedBranch,
     fold: &Special,
 ) -> Option<JumpSpeeds> {
-    let (before, behind) = (fold.after, fold.after + 1);
-    let stable =
-        |at: usize| branch.stability.get(at).is_some_and(super::stability::Stability::is_stable);
-    let end = match (stable(before), stable(behind)) {
-        (true, false) => &branch.samples[before],
-        (false, true) => &branch.samples[behind],
-        _ => return None,
-    };
+    let end = stable_side(branch, fold)?;
     // The stable side lies at lower speeds than the fold: sweeping up meets its end.
     let sweep = if end.p < fold.sample.p { "up" } else { "down" };
     let name = reference(setting);
@@ -53,6 +49,29 @@ fn jump(
     })
 }
 
+/// The sample on the stable side of a fold, where one side is stable and the other is not.
+///
+/// Multipliers that are not those of the exact orbit (with few harmonics, by Hill's method) may tell the
+/// change a little beside the fold: then samples somewhat further away decide, as long as no other
+/// special point lies before them.
+fn stable_side<'b>(branch: &'b TracedBranch, fold: &Special) -> Option<&'b Sample> {
+    let stable =
+        |at: usize| branch.stability.get(at).is_some_and(super::stability::Stability::is_stable);
+    for away in 0..=FARTHEST {
+        let (before, behind) = (fold.after.checked_sub(away)?, fold.after + 1 + away);
+        let others = branch.specials.iter().filter(|other| !std::ptr::eq(*other, fold));
+        if away > 0 && others.into_iter().any(|other| (before..behind).contains(&other.after)) {
+            return None;
+        }
+        match (stable(before), stable(behind)) {
+            (true, false) => return branch.samples.get(before),
+            (false, true) => return branch.samples.get(behind),
+            _ => {}
+        }
+    }
+    None
+}
+
 /// Stable responses at a fold's speed on other stretches of the branches, interpolated.
 fn others<'b>(
     branches: &'b [TracedBranch],
@@ -65,7 +84,7 @@ fn others<'b>(
         pairs.filter_map(move |(at, pair)| {
             let is_own = std::ptr::eq(branch, own) && at.abs_diff(fold.after) <= 1;
             let spans = (pair[0].p - p) * (pair[1].p - p) <= 0.0 && pair[0].p != pair[1].p;
-            let stable = branch.stability[at].is_stable() && branch.stability[at + 1].is_stable();
+            let stable = branch.stable_between(at).is_some_and(|(low, high)| low <= p && p <= high);
             (spans && stable && !is_own).then(|| (mixed(&pair[0], &pair[1], p), branch))
         })
     })

@@ -3,7 +3,7 @@
 //! A test is a function of the arclength between the samples, every value of it at a converged
 //! response. Its zero is closed in by a bracketing method first; where the number of harmonics is free
 //! it is then raised until the place stands still, each time by secants from the place known before,
-//! with one factorisation for all of them.
+//! with one factorisation for all of them where the test does not ask for the curve's direction.
 
 use halfshaft_model::question::StabilityMethod;
 use halfshaft_numerics::bracket::{RootSettings, find_root};
@@ -60,6 +60,8 @@ struct Zero {
     part: f64,
     /// Slope of the test by the part, where two values have told it.
     slope: f64,
+    /// Part by which the zero may still be off.
+    left: f64,
 }
 
 impl Tracer<'_, '_> {
@@ -184,9 +186,8 @@ impl Tracer<'_, '_> {
         .ok()?;
         let sample = self.between(segment, root.value, near.as_ref().map(|near| &near.0)).ok()?;
         let slope = slope(&mut seen, root.value);
-        let zero = Zero { sample, part: root.value, slope };
-        let failed = seen.iter().any(|(_, value)| value.is_nan());
-        (!failed && self.is_zero(judge, what, &zero.sample)).then_some(zero)
+        let zero = Zero { sample, part: root.value, slope, left: CLOSED_IN };
+        self.is_zero(judge, what, &zero.sample).then_some(zero)
     }
 
     /// A zero over more harmonics, by secants from where it was over fewer.
@@ -208,7 +209,8 @@ impl Tracer<'_, '_> {
             if value == 0.0 || step.abs() < CLOSED_IN {
                 break;
             }
-            if !(step.abs() < FARTHEST_SECANT && (part + step - 0.5).abs() < 1.0) {
+            let away = (part + step - zero.part).abs();
+            if !(away < FARTHEST_SECANT && (part + step - 0.5).abs() < 1.0) {
                 return None;
             }
             let near = (&centre, zero.part);
@@ -226,7 +228,9 @@ impl Tracer<'_, '_> {
                     return None;
                 }
             }
-            slope = (next_value - value) / step;
+            if step.abs() > ROUNDING {
+                slope = (next_value - value) / step;
+            }
             part += step;
             (value, here) = (next_value, Some(next));
         }
@@ -235,9 +239,9 @@ impl Tracer<'_, '_> {
             Some(sample) => self.finish_on(segment, sample.u, sample.p).ok()?,
             None => centre,
         };
-        let small = (value / slope).abs() < ROUNDING;
-        let zero = Zero { sample, part, slope };
-        (small && self.is_zero(judge, what, &zero.sample)).then_some(zero)
+        let left = (value / slope).abs();
+        let zero = Zero { sample, part, slope, left };
+        (left < ROUNDING && self.is_zero(judge, what, &zero.sample)).then_some(zero)
     }
 
     /// Whether a test is truly zero at a response: where multipliers meet on the real axis, away from
@@ -251,7 +255,8 @@ impl Tracer<'_, '_> {
     }
 
     /// Locates a zero of a test between two samples; harmonics are added until it stands still. Gives
-    /// how far the last of them moved it, relative.
+    /// how far the last of them moved it, relative; NaN where none were added, the part to which it was
+    /// closed in where their number is given.
     pub(super) fn locate(
         &mut self,
         judge: &mut Judge,
@@ -277,7 +282,8 @@ impl Tracer<'_, '_> {
             segment = Segment::new(self, pair, &next);
             let Some(found) = self.over_more(judge, what, &segment, &zero, round) else { break };
             let p = found.sample.p;
-            precision = (p - zero.sample.p).abs() / p.abs().max(f64::MIN_POSITIVE);
+            let moved = (p - zero.sample.p).abs().max(found.left * segment.parameter_span());
+            precision = moved / p.abs().max(f64::MIN_POSITIVE);
             zero = found;
             if precision < SETTLED {
                 break;
@@ -334,7 +340,7 @@ fn more_harmonics(sample: &Sample) -> HarmonicSet {
         let moduli = orders.flat_map(|&order| nodes().map(move |node| set.modulus(node, order)));
         (moduli.fold(f64::MIN_POSITIVE, f64::max) / size).ln()
     };
-    let quarter = (highest / 4).max(1);
+    let quarter = (highest / 4).max(2);
     let (before, last) = (
         largest(highest.saturating_sub(2 * quarter), highest - quarter),
         largest(highest - quarter, highest),

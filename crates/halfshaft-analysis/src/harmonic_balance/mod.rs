@@ -20,6 +20,7 @@
 
 mod alternating;
 mod answer;
+mod at_speed;
 mod backbone;
 mod branches;
 mod branching;
@@ -29,6 +30,7 @@ mod closing;
 mod condensed;
 mod exact;
 mod fold_answer;
+mod fold_count;
 mod fold_points;
 mod fold_system;
 mod fold_trace;
@@ -72,4 +74,5 @@ mod tracer;
 mod verify;
 
 pub(crate) use answer::solve;
+pub(crate) use at_speed::{AtSpeed, Response};
 pub(crate) use fold_answer::solve as solve_folds;

@@ -20,6 +20,18 @@ use super::tracer::Counted;
 use crate::error::AnalysisError;
 use crate::header::header;
 
+/// The range of a parameter, ascending, less an end at which nothing excites the line.
+pub(super) fn excited(lines: &Lines<'_>, range: &ParameterRange) -> (f64, f64) {
+    let silent = |value: f64| {
+        lines.at(value).is_some_and(|equations| equations.excitation.orders().is_empty())
+    };
+    let inset = |end: f64, other: f64| if silent(end) { end + INSET * (other - end) } else { end };
+    let (low, high) = (range.from.min(range.to), range.from.max(range.to));
+    (inset(low, high), inset(high, low))
+}
+
+/// Part of a range by which an end is left out at which nothing excites the line.
+const INSET: f64 = 1e-6;
 /// Values of the parameter at which responses are looked for.
 const SLICES: u32 = 7;
 
@@ -45,7 +57,11 @@ pub(super) fn solve(
         for (flag, other) in flags.iter_mut().zip(nonlinear(&equations)) {
             *flag |= other;
         }
-        let member = Setting::new(equations, Some((frequency, frequency)), question.mode)?;
+        let member = match Setting::new(equations, Some((frequency, frequency)), question.mode) {
+            // Without torques there is nothing to find, but beside it there may be.
+            Err(AnalysisError::NoExcitation { .. }) => continue,
+            member => member?,
+        };
         odd &= member.odd;
         members.push((value, member));
     }
@@ -73,7 +89,7 @@ pub(super) fn solve(
         rest: own.rest.clone(),
         base: own.base,
         odd,
-        range: (range.from, range.to),
+        range: excited(&lines, range),
     };
     let job = Job {
         line: &setting.line,

@@ -200,6 +200,16 @@ impl<'f> Problem<'f> {
         }
     }
 
+    /// Newton's step from the residual last evaluated with the factors as they are; gives the
+    /// parameter's share.
+    fn step(&mut self, u: &[f64], p: f64, condition: &Condition<'_>, step: &mut [f64]) -> f64 {
+        step.iter_mut().zip(&self.system.residual).for_each(|(s, r)| *s = -r);
+        let held: f64 = condition.row.iter().zip(u).map(|(a, b)| a * b).sum();
+        let mut step_p = condition.target - held - condition.corner * p;
+        self.solve(step, &mut step_p);
+        step_p
+    }
+
     /// Newton's method from `u`, `p` under a linear condition; the factors of the last iteration
     /// stay.
     pub(super) fn correct(
@@ -215,10 +225,7 @@ impl<'f> Problem<'f> {
         for iteration in 1..=MOST_ITERATIONS {
             self.evaluate(u, *p)?;
             self.factorise(condition.row, condition.corner)?;
-            step.iter_mut().zip(&self.system.residual).for_each(|(s, r)| *s = -r);
-            let held: f64 = condition.row.iter().zip(u.iter()).map(|(a, b)| a * b).sum();
-            let mut step_p = condition.target - held - condition.corner * *p;
-            self.solve(&mut step, &mut step_p);
+            let step_p = self.step(u, *p, condition, &mut step);
             // A guess of nothing has no size to measure by but that of the first step.
             let reach = if iteration == 1 { length(&step) + length(u) } else { length(u) };
             let metric = Metric { size: metric.size.max(reach), span: metric.span };
@@ -260,10 +267,7 @@ impl<'f> Problem<'f> {
         for iteration in 1..=MOST_NEARBY {
             self.line_at(*p)?;
             self.system.evaluate(u, self.place_at(*p), false);
-            step.iter_mut().zip(&self.system.residual).for_each(|(s, r)| *s = -r);
-            let held: f64 = condition.row.iter().zip(u.iter()).map(|(a, b)| a * b).sum();
-            let mut step_p = condition.target - held - condition.corner * *p;
-            self.solve(&mut step, &mut step_p);
+            let step_p = self.step(u, *p, condition, &mut step);
             let size = metric.norm(&step, step_p);
             if !size.is_finite() || size > SLOWEST * before {
                 let settled = before < ROUNDING;

@@ -46,8 +46,13 @@ fn about(
     };
     let natural = square.max(0.0).sqrt() / order;
     if natural == 0.0 {
-        let reason = "nothing holds the line at rest, so it has no natural frequency".to_owned();
-        return Err(AnalysisError::NotAveraged { mode, reason });
+        return Err(AnalysisError::MethodDoesNotFit {
+            method: "harmonic-balance",
+            reason: format!(
+                "mode {mode} has no stiffness at rest, so that no natural frequency tells where to look; \
+                 give --frequency A..B"
+            ),
+        });
     }
     Ok((0.5 * natural, 1.5 * natural))
 }

@@ -13,7 +13,7 @@ use halfshaft_numerics::observer::Observer;
 use super::line::Line;
 use super::problem::{Axis, Problem};
 use super::system::{HarmonicSystem, Place};
-use super::tracer::{Counted, Sample, TraceSettings, Tracer, length};
+use super::tracer::{Counted, Sample, TraceSettings, Tracer, length, work_of};
 
 /// A guess at a response: coefficients of the kept groups over a set.
 #[derive(Clone, Debug)]
@@ -97,7 +97,8 @@ pub(super) fn drive_curve(
         harmonics: Some(set.highest()),
         miss: ROUGH,
         longest: 1.0,
-        most_samples: (10 * MOST_SAMPLES / line.nodes().max(10)).max(LEAST_MOST_SAMPLES),
+        most_samples: (10 * MOST_SAMPLES / line.nodes().max(10)).max(LEAST_MOST_SAMPLES)
+            * work_of(set).ceil() as usize,
         most_size: f64::INFINITY,
     };
     let mut tracer = Tracer::new(problem, settings, observer);

@@ -11,7 +11,8 @@ pub(super) struct Segment {
     from: End,
     to: End,
     metric: Metric,
-    /// Row and corner of the condition that holds a response in a plane across the chord.
+    /// Row and corner of the condition that holds a response in a plane across the chord: the unit
+    /// vector along it in the metric.
     row: Vec<f64>,
     corner: f64,
     length: f64,
@@ -47,18 +48,23 @@ impl Segment {
             along.iter_mut().for_each(|x| *x *= scale);
             End { u, p: sample.p, along, along_p: sample.tangent_p * scale }
         };
-        let row = chord.iter().map(|x| x / (metric.size * metric.size)).collect();
-        let corner = chord_p / (metric.span * metric.span);
-        let unit = chord.iter().map(|x| x / length).collect();
+        let unit: Vec<f64> = chord.iter().map(|x| x / length).collect();
         let unit_p = chord_p / length;
+        let row = unit.iter().map(|x| x / (metric.size * metric.size)).collect();
+        let corner = unit_p / (metric.span * metric.span);
         let (from, to) = (end(from, a), end(to, b));
         Self { set: set.clone(), from, to, metric, row, corner, length, unit, unit_p }
+    }
+
+    /// How far the parameter moves along the whole of it.
+    pub(super) fn parameter_span(&self) -> f64 {
+        (self.to.p - self.from.p).abs()
     }
 
     /// Condition of the plane at a part of the way.
     fn condition(&self, part: f64) -> Condition<'_> {
         let held: f64 = self.row.iter().zip(&self.from.u).map(|(r, a)| r * a).sum();
-        let target = held + self.corner * self.from.p + part * self.length * self.length;
+        let target = held + self.corner * self.from.p + part * self.length;
         Condition { row: &self.row, corner: self.corner, target }
     }
 
@@ -91,8 +97,8 @@ impl Tracer<'_, '_> {
         self.between(&segment, part, None)
     }
 
-    /// The response at a part (0 to 1) of the way between two samples, from a guess or from the cubic
-    /// through both.
+    /// The response at a part of the way between two samples (0 at the first, 1 at the other), from a
+    /// guess or from the cubic through both.
     pub(super) fn between(
         &mut self,
         segment: &Segment,

@@ -40,8 +40,9 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
     }
     let before = all.branches.len();
     let lost = std::mem::take(&mut all.lost);
+    let mut tried: Vec<f64> = Vec::new();
     for place in &lost {
-        if !all.is_stable_at(*place) && !all.is_full() {
+        if !all.is_stable_at(*place) && !all.cut_off() {
             Runs::new(setting, job).at(*place, all);
         }
     }
@@ -54,7 +55,8 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
             let p = from + part * (to - from);
             let enough = job.observer.cancelled() || all.branches.len() > before + MOST_ADDED;
             let open = !enough && runs.unsettled < MOST_UNSETTLED;
-            if open && !all.is_stable_at(p) && !all.is_full() {
+            if open && !all.is_stable_at(p) && !all.cut_off() {
+                tried.push(p);
                 runs.at(p, all);
             }
         }
@@ -69,6 +71,8 @@ pub(super) fn settle(setting: &Setting, job: &Job<'_, '_>, all: &mut Collected) 
             "at both ends a pair of multipliers leaves the unit circle, and the motion between does not \
              repeat; see it with simulate"
                 .to_owned()
+        } else if !tried.iter().any(|p| from <= *p && *p <= to) {
+            "what the line settles to there was not tried; ask for a narrower range".to_owned()
         } else {
             let periods = exact::MOST_MULTIPLE;
             format!("where the line was let run its motion did not repeat within {periods} periods")

@@ -32,6 +32,7 @@ impl Stability {
         let squares = |m: &Complex| *m * *m;
         let largest = raw.iter().map(|m| m.modulus()).fold(0.0, f64::max);
         let rounding = ROUNDING * largest * if mirrored { 2.0 } else { 1.0 };
+        let rounding = if rounding.is_finite() { rounding } else { 0.0 };
         let (multipliers, half): (Vec<Complex>, Vec<Complex>) =
             if mirrored { (raw.iter().map(squares).collect(), raw) } else { (raw, Vec::new()) };
         let mut stability = Self { multipliers, half, unstable: 0, rounding };
@@ -181,8 +182,7 @@ pub(super) fn may_be_a_meeting(before: &Stability, after: &Stability, crossing: 
     let change = before.unstable.abs_diff(after.unstable);
     match crossing {
         Crossing::Pair => change != 2,
-        Crossing::MinusOne => moved.is_multiple_of(2),
-        Crossing::One => false,
+        Crossing::MinusOne | Crossing::One => moved.is_multiple_of(2),
     }
 }
 
@@ -202,5 +202,43 @@ pub(super) fn counted(stability: &Stability, crossing: Crossing) -> usize {
         Crossing::Pair => {
             stability.multipliers.iter().filter(outside).filter(|m| m.im > 0.0).count()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stability(list: &[(f64, f64)]) -> Stability {
+        Stability::of(list.iter().map(|(re, im)| Complex::new(*re, *im)).collect(), false)
+    }
+
+    // Source: by hand. What crosses the circle, and what only meets outside of it.
+    #[test]
+    fn meetings_outside_of_the_circle_cross_nothing() {
+        let pair = stability(&[(-3.0, 1.0), (-3.0, -1.0), (0.1, 0.0)]);
+        let two = stability(&[(-4.0, 0.0), (-2.5, 0.0), (0.1, 0.0)]);
+        assert!(crossings(&pair, &two).is_empty() && crossings(&two, &pair).is_empty());
+        let inside = stability(&[(-0.9, 0.0), (0.1, 0.0), (0.05, 0.0)]);
+        let doubled = stability(&[(-1.1, 0.0), (0.1, 0.0), (0.05, 0.0)]);
+        assert_eq!(crossings(&inside, &doubled), [Crossing::MinusOne]);
+        assert!(!may_be_a_meeting(&inside, &doubled, Crossing::MinusOne));
+        let torus = stability(&[(0.2, 1.0), (0.2, -1.0), (0.05, 0.0)]);
+        assert_eq!(crossings(&inside, &torus), [Crossing::Pair]);
+        assert!(!may_be_a_meeting(&inside, &torus, Crossing::Pair));
+        // One left through -1 while a pair outside became real.
+        let three = stability(&[(-4.0, 0.0), (-2.5, 0.0), (-1.2, 0.0)]);
+        assert!(crossings(&pair, &three).contains(&Crossing::MinusOne));
+    }
+
+    // Source: the product of a matrix of two digits apart: 1e20 and 0.5 leave rounding of 1e4 beside it.
+    #[test]
+    fn what_the_largest_multiplier_leaves_to_the_others_counts_for_nothing() {
+        let sharp = stability(&[(1e20, 0.0), (-3e4, 0.0), (2e3, 0.0)]);
+        assert_eq!((sharp.unstable, counted(&sharp, Crossing::MinusOne)), (1, 0));
+        let mild = stability(&[(1e6, 0.0), (-1.5, 0.0), (0.3, 0.0)]);
+        assert_eq!((mild.unstable, counted(&mild, Crossing::MinusOne)), (2, 1));
+        let beyond = stability(&[(f64::INFINITY, 0.0), (2.0, 0.0)]);
+        assert!(!beyond.is_stable());
     }
 }

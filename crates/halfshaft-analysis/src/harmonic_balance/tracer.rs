@@ -38,10 +38,15 @@ pub(crate) struct Sample {
 const FEW_COEFFICIENTS: f64 = 60.0;
 
 impl Sample {
-    /// Work on the sample, over that of one of few harmonics: it grows with their square at least.
+    /// Work on the sample, over that of one of few harmonics.
     pub(super) fn work(&self) -> f64 {
-        (self.set.coefficients() as f64 / FEW_COEFFICIENTS).powi(2).max(1.0)
+        work_of(&self.set)
     }
+}
+
+/// Work on a sample over a set, over that of one of few harmonics: it grows with their square at least.
+pub(super) fn work_of(set: &HarmonicSet) -> f64 {
+    (set.coefficients() as f64 / FEW_COEFFICIENTS).powi(2).max(1.0)
 }
 
 /// Why a branch ends.

@@ -54,6 +54,8 @@ pub(super) const MOST_STEPS: usize = 10_000;
 /// Samples of an orbit at least, and for each period of the harmonic that is looked at.
 const SAMPLES: usize = 256;
 const SAMPLES_PER_WAVE: usize = 16;
+/// An orbit whose harmonic is more than so many times larger or smaller than predicted is another.
+const FARTHEST: f64 = 2.0;
 
 /// What the check of predicted responses gave.
 #[derive(Debug, Default)]
@@ -137,6 +139,10 @@ fn check(
     let twist = twist.as_slice();
     let integrated =
         fourier::harmonic(twist, harmonic).doing("taking the harmonic of an orbit")?.modulus;
+    // Newton's method may have gone to another response, which says nothing of this one.
+    if !(1.0 / FARTHEST..=FARTHEST).contains(&(integrated / point.rho())) {
+        return Ok(None);
+    }
     let amplitude = fourier::half_peak_to_peak(twist).doing("measuring an orbit")?;
     let largest = orbit.multipliers.iter().map(|m| m.modulus()).fold(0.0, f64::max);
     let flow = mode.slow_flow();

@@ -48,8 +48,8 @@ pub struct Resonance {
     /// branch has [default: 1000; harmonic-balance: as many as its shape asks]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub points: Option<String>,
-    /// Check chosen responses against periodic orbits of the full equations; by the averaged and the
-    /// first-harmonic method what differs is mostly the harmonics that they leave out
+    /// Check chosen responses against periodic orbits of the full equations; by the averaged method
+    /// what differs is mostly the harmonics that it leaves out (first-harmonic is not checked so)
     #[arg(long)]
     pub verify: bool,
 }

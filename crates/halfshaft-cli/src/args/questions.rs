@@ -88,6 +88,17 @@ pub enum Ask {
   halfshaft folds --parameter \"half-shaft.damping=1..100 N·m·s/rad\" --out folds.svg
   halfshaft folds --method averaged --parameter \"mode.f=1..20\"")]
     Folds(Folds),
+    /// Which initial state leads to which response, at one excitation speed
+    ///
+    /// All responses that the line settles to at this speed, and a map of the twists and rates of twist
+    /// of one shaft at time 0 by the response that they lead to. Everything else starts at rest in the
+    /// equilibrium, while the torques act from time 0 on. Every state of the grid is followed until a
+    /// stable response catches it.
+    #[command(after_help = "Examples:
+  halfshaft basins --frequency 4.12Hz
+  halfshaft basins my-line.toml --frequency 26rad/s --grid 400 --out basins.png
+  halfshaft basins my-line.toml --frequency 26rad/s --window \"-5rad..5rad,-120rad/s..120rad/s\"")]
+    Basins(Basins),
 }
 
 /// The model that is asked about, and what to do with the answer.
@@ -174,6 +185,45 @@ pub struct Shock {
     pub compare: bool,
 }
 
+#[derive(Args, Debug)]
+pub struct Basins {
+    #[command(flatten)]
+    pub model: Model,
+    /// Excitation speed Ω, e.g. 4Hz or 240rpm
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
+    pub frequency: Option<String>,
+    /// Number of twists and of rates: 200, or 300x200 [default: 201]
+    #[arg(long, value_name = "N|NxM", allow_hyphen_values = true)]
+    pub grid: Option<String>,
+    /// Twists and rates of twist at time 0, e.g. "-2rad..2rad,-50rad/s..50rad/s" [default: one and a
+    /// half times what the responses reach]
+    #[arg(long, value_name = "A..B,C..D", allow_hyphen_values = true)]
+    pub window: Option<String>,
+    /// Shaft whose twist and rate are varied [default: the first nonlinear one]
+    #[arg(long, value_name = "NAME")]
+    pub shaft: Option<String>,
+    /// Relative tolerance of the integration [default: 1e-8]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
+    /// Periods of the excitation after which a motion is given up [default: 2000]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub periods: Option<String>,
+}
+
+impl Basins {
+    fn text(&self) -> QuestionText {
+        QuestionText {
+            frequency: self.frequency.clone(),
+            grid: self.grid.clone(),
+            window: self.window.clone(),
+            shaft: self.shaft.clone(),
+            tolerance: self.tolerance.clone(),
+            periods: self.periods.clone(),
+            ..QuestionText::default()
+        }
+    }
+}
+
 impl Ask {
     /// The model, to complete its flags.
     pub fn model_mut(&mut self) -> &mut Model {
@@ -184,6 +234,7 @@ impl Ask {
             Self::Shock(shock) => &mut shock.model,
             Self::Resonance(resonance) => &mut resonance.model,
             Self::Folds(folds) => &mut folds.model,
+            Self::Basins(basins) => &mut basins.model,
         }
     }
 
@@ -201,6 +252,7 @@ impl Ask {
             Self::Shock(shock) => (Verb::Shock, &shock.model, shock.text()),
             Self::Resonance(resonance) => (Verb::Resonance, &resonance.model, resonance.text()),
             Self::Folds(folds) => (Verb::Folds, &folds.model, folds.text()),
+            Self::Basins(basins) => (Verb::Basins, &basins.model, basins.text()),
         }
     }
 }

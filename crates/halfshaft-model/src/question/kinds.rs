@@ -23,11 +23,13 @@ pub enum Verb {
     Resonance,
     /// Fold curves in a plane of excitation speed and one parameter.
     Folds,
+    /// Which initial state leads to which response at one excitation speed.
+    Basins,
 }
 
 impl Verb {
     /// All verbs with their names.
-    pub const ALL: [(&'static str, Self); 7] = [
+    pub const ALL: [(&'static str, Self); 8] = [
         ("check", Self::Check),
         ("static", Self::Static),
         ("modes", Self::Modes),
@@ -35,6 +37,7 @@ impl Verb {
         ("shock", Self::Shock),
         ("resonance", Self::Resonance),
         ("folds", Self::Folds),
+        ("basins", Self::Basins),
     ];
 
     /// Name of the verb.
@@ -61,6 +64,8 @@ pub enum Question {
     Resonance(ResonanceQuestion),
     /// See [`Verb::Folds`].
     Folds(FoldsQuestion),
+    /// See [`Verb::Basins`].
+    Basins(BasinsQuestion),
 }
 
 impl Question {
@@ -74,6 +79,7 @@ impl Question {
             Self::Shock(_) => Verb::Shock,
             Self::Resonance(_) => Verb::Resonance,
             Self::Folds(_) => Verb::Folds,
+            Self::Basins(_) => Verb::Basins,
         }
     }
 }
@@ -351,4 +357,36 @@ pub struct FoldsQuestion {
     pub harmonics: Option<usize>,
     /// Error of the waveform that is tolerated, relative to its amplitude.
     pub tolerance: f64,
+}
+
+/// Settings of `basins`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BasinsQuestion {
+    /// Excitation speed Ω, rad/s.
+    pub frequency: f64,
+    /// The shaft whose twist and rate of twist are varied at the start; `None` for the first nonlinear
+    /// one.
+    pub shaft: Option<String>,
+    /// Range of its twist (rad) and of its rate (rad/s); `None` for one and a half times what the
+    /// responses reach.
+    pub window: Option<[(f64, f64); 2]>,
+    /// Number of twists and of rates.
+    pub grid: (usize, usize),
+    /// Relative tolerance of the integration.
+    pub tolerance: f64,
+    /// Periods of the excitation after which a motion that has reached no response is given up.
+    pub periods: usize,
+}
+
+impl Default for BasinsQuestion {
+    fn default() -> Self {
+        Self {
+            frequency: 1.0,
+            shaft: None,
+            window: None,
+            grid: (201, 201),
+            tolerance: 1e-8,
+            periods: 2000,
+        }
+    }
 }

@@ -3,6 +3,7 @@
 //! The command line, study files and other faces fill in [`QuestionText`]; [`read()`] turns it
 //! into a [`Question`] in SI or into every mistake at once. The analyses take it from there.
 
+mod basins;
 mod channel;
 mod kinds;
 mod parameter_axis;
@@ -13,9 +14,9 @@ mod values;
 
 pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
-    DEFAULT_POINTS, FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod,
-    ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion,
-    StabilityMethod, Start, Verb,
+    BasinsQuestion, DEFAULT_POINTS, FoldsQuestion, ModesQuestion, ParameterRange, Question,
+    ResonanceMethod, ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion,
+    SimulateQuestion, StabilityMethod, Start, Verb,
 };
 pub use read::read;
 pub use text::{OptionError, QuestionText};

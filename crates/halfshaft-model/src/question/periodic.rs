@@ -23,6 +23,11 @@ impl Reader<'_> {
             self.refuse("parameter", text.parameter.as_deref(), message, hint);
         }
         let swept = text.parameter.is_some();
+        if swept {
+            let message = "responses are held against integration over the excitation speed only";
+            let hint = "leave it out, or leave --parameter out";
+            self.refuse("verify", text.verify.then_some(""), message, hint);
+        }
         let parameter = if swept && balanced { self.swept() } else { None };
         let frequency = match (swept, balanced) {
             (false, _) => self.range_of_speeds(balanced),

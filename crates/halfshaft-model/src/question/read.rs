@@ -31,6 +31,7 @@ pub fn read(
             Some(folds) => Question::Folds(folds),
             None => return Err(reader.errors),
         },
+        Verb::Basins => Question::Basins(reader.basins()),
     };
     if reader.errors.is_empty() { Ok(question) } else { Err(reader.errors) }
 }

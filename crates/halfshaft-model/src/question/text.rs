@@ -9,7 +9,7 @@ pub struct QuestionText {
     pub initial: Vec<String>,
     /// `--start`.
     pub start: Option<String>,
-    /// `--frequency`: one speed for `simulate` and beside a `--parameter` of `resonance`, a range for
+    /// `--frequency`: one speed for `simulate`, `basins` and beside a `--parameter` of `resonance`, a range for
     /// the others.
     pub frequency: Option<String>,
     /// `--step`.
@@ -44,6 +44,14 @@ pub struct QuestionText {
     pub stability: Option<String>,
     /// `--backbone`.
     pub backbone: bool,
+    /// `--grid`.
+    pub grid: Option<String>,
+    /// `--window`.
+    pub window: Option<String>,
+    /// `--shaft`.
+    pub shaft: Option<String>,
+    /// `--periods`.
+    pub periods: Option<String>,
 }
 
 /// What is wrong with one option.

@@ -165,7 +165,7 @@ impl Reader<'_> {
         None
     }
 
-    fn range(
+    pub(super) fn range(
         &mut self,
         option: &'static str,
         text: Option<&str>,

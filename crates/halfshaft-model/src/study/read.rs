@@ -340,6 +340,10 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         harmonics: option("harmonics"),
         stability: option("stability"),
         backbone: table.flag("backbone"),
+        grid: option("grid"),
+        window: option("window"),
+        shaft: option("shaft"),
+        periods: option("periods"),
     }
 }
 

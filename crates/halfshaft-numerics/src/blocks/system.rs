@@ -205,7 +205,8 @@ impl BlockSystem {
     }
 }
 
-/// The factorisation, compiled for the widest instructions of the processor.
+/// The factorisation, its loops over small blocks compiled for the widest instructions of the
+/// processor.
 struct Run<'f>(&'f mut Factors);
 
 impl pulp::NullaryFnOnce for Run<'_> {

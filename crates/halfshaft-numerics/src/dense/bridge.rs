@@ -1,4 +1,5 @@
-//! The only file that names `faer`: its matrices go no further.
+//! Where dense problems meet `faer`: its matrices go no further. (Large blocks of
+//! [`BlockSystem`](crate::blocks::BlockSystem)s are the other place.)
 //!
 //! Every call passes `Par::Seq` itself. The library's global setting would follow whichever crate
 //! of a program turns its threads on, and threads only slow these sizes down.

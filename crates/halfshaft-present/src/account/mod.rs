@@ -7,6 +7,7 @@ use halfshaft_results::{Answer, Header};
 
 pub(crate) use grid::{Grid, GridColumn, Tone};
 
+pub(crate) mod basins;
 pub(crate) mod check;
 pub(crate) mod folds;
 pub(crate) mod head;
@@ -108,6 +109,7 @@ pub(crate) fn of(answer: &Answer) -> Account {
         Answer::History(result) => history::account(result),
         Answer::Resonance(result) => resonance::account(result),
         Answer::Folds(result) => folds::account(result),
+        Answer::Basins(result) => basins::account(result),
         Answer::Study(result) => study::account(result),
         Answer::Report(result) => report::account(result),
     }

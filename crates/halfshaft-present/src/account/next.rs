@@ -21,6 +21,9 @@ pub(crate) fn next(answer: &Answer) -> Option<String> {
         Answer::Folds(_) => {
             "`halfshaft resonance --set \"ADDRESS=VALUE\"` for the response at a point of this plane"
         }
+        Answer::Basins(_) => {
+            "`halfshaft resonance` for these responses over the speed, and where each of them ends"
+        }
         Answer::Study(_) => return None,
         Answer::Report(report) => {
             let shaft = report.check.shafts.first().map_or("SHAFT", |shaft| shaft.name.as_str());

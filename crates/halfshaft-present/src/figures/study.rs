@@ -114,7 +114,11 @@ fn tables(answer: &Answer) -> Vec<Columns<'_>> {
             .iter()
             .map(|(shaft, table)| Columns { shaft: Some(shaft), columns: &table.columns })
             .collect(),
-        Answer::Check(_) | Answer::Modes(_) | Answer::Study(_) | Answer::Report(_) => Vec::new(),
+        Answer::Check(_)
+        | Answer::Modes(_)
+        | Answer::Basins(_)
+        | Answer::Study(_)
+        | Answer::Report(_) => Vec::new(),
     }
 }
 

@@ -120,6 +120,9 @@ pub(crate) struct Reading<'r> {
     pub(crate) channel: Option<String>,
 }
 
+/// Part of the swing below which the first harmonic does not stand for it.
+const LEADING: f64 = 0.6;
+
 impl<'r> Reading<'r> {
     pub(crate) fn of(result: &'r ResonanceResult) -> Self {
         let usual =
@@ -132,12 +135,20 @@ impl<'r> Reading<'r> {
         }
     }
 
-    /// The column of the first harmonic of the channel, or of what else the branches have of it.
+    /// The column of the first harmonic of the channel, or of what else the branches have of it. Where
+    /// higher orders move the channel more than the first does, its swing tells more.
     pub(crate) fn column(&self) -> String {
         let Some(channel) = &self.channel else { return "rho".to_owned() };
-        let has = |measure: &&str| self.result.has_column(&format!("{channel}.{measure}"));
-        let measure = ["harmonic1", "amplitude"].into_iter().find(has).unwrap_or("harmonic1");
-        format!("{channel}.{measure}")
+        let named = |measure: &str| format!("{channel}.{measure}");
+        let largest = |measure: &str| {
+            let of = |branch: &'r Branch| branch.values(&named(measure)).iter().copied();
+            bounds(self.result.branches.iter().flat_map(of)).map(|(_, high)| high)
+        };
+        match (largest("harmonic1"), largest("amplitude")) {
+            (Some(first), Some(swing)) if first < LEADING * swing => named("amplitude"),
+            (None, Some(_)) => named("amplitude"),
+            _ => named("harmonic1"),
+        }
     }
 
     /// The column of the swing of the channel: half of peak to peak, or else its first harmonic.

@@ -145,7 +145,9 @@ fn every_summary_tells_the_numbers_of_its_answer() {
                     5,
                 );
             }
-            Answer::Study(_) | Answer::Report(_) => unreachable!("no such verb was asked"),
+            Answer::Basins(_) | Answer::Study(_) | Answer::Report(_) => {
+                unreachable!("no such verb was asked")
+            }
         }
     }
     assert_eq!(seen, 7, "every verb has its answer");

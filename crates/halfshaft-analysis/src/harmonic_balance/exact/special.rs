@@ -3,7 +3,7 @@
 use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_results::SpecialKind;
 
-use super::super::stability::{Crossing, counted, crossings, pair_angle, test};
+use super::super::stability::{Crossing, counted, crossings, may_be_a_meeting, pair_angle, test};
 use super::curve::Curve;
 use super::point::Point;
 use super::touch::{Touch, touches};
@@ -111,8 +111,10 @@ impl Curve<'_, '_> {
         }
         for (kind, what) in wanted {
             let place = self.locate(what, from, to);
-            if place.is_none() && what == Test::Crossing(Crossing::Pair) && change.abs() != 2 {
-                // A pair outside the circle that met on the real axis.
+            if place.is_none()
+                && let Test::Crossing(crossing) = what
+                && may_be_a_meeting(&from.stability, &to.stability, crossing)
+            {
                 continue;
             }
             specials.push(special(kind, after, from, place, alone.then_some(change), None));

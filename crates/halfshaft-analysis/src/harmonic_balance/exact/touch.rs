@@ -1,5 +1,6 @@
 //! Turning points of the twists whose laws have breaks, and what begins or ceases to touch.
 
+use super::super::grazing::six_digits;
 use halfshaft_dynamics::EquationsOfMotion;
 
 use crate::shooting::{Step, Turn};
@@ -100,7 +101,7 @@ impl Touch {
             .min_by(|a, b| (a.twist - self.level).abs().total_cmp(&(b.twist - self.level).abs()));
         let side = if nearest.is_none_or(|turn| turn.top) { "below" } else { "above" };
         let name = &equations.connections[self.connection].name;
-        format!("the twist of `{name}` touches {} rad from {side}", self.level)
+        format!("the twist of `{name}` touches {} rad from {side}", six_digits(self.level))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is told of fold curves.
 
-use halfshaft_results::{FoldsResult, SpecialKind, SpecialPoint};
+use halfshaft_results::{FoldsResult, Reason, SpecialKind, SpecialPoint};
 
 use super::{Account, Grid};
 use crate::reading::bounds;
@@ -20,8 +20,16 @@ pub(crate) fn account(result: &FoldsResult) -> Account {
 /// The account of one plane among others; terms are explained where it is the first.
 pub(crate) fn plane(result: &FoldsResult, explain: bool) -> Account {
     let mut account = Account::default();
-    account.text(thresholds(result));
-    account.text(detached(result));
+    if result.header.termination.reason == Reason::Completed {
+        account.text(thresholds(result));
+        account.text(detached(result));
+    } else {
+        account.text([
+            "The search was ended early, so that folds are missing here and nothing is said of \
+             what is safe."
+                .to_owned(),
+        ]);
+    }
     if explain && !result.curves.is_empty() {
         account.note(
             "Between the two folds three responses exist, and a slow sweep jumps where it crosses \
