@@ -104,9 +104,20 @@ impl Setting {
         observer: &dyn Observer,
         counted: &mut Counted,
     ) -> Vec<(Seed, f64, String)> {
+        self.seeds_between(INNER_SEEDS, harmonics, observer, counted)
+    }
+
+    /// The same with a number of speeds between the ends.
+    pub(super) fn seeds_between(
+        &self,
+        inner: u32,
+        harmonics: Option<usize>,
+        observer: &dyn Observer,
+        counted: &mut Counted,
+    ) -> Vec<(Seed, f64, String)> {
         let (low, high) = self.range;
-        let at = |k: u32| low + (high - low) * f64::from(k) / f64::from(INNER_SEEDS + 1);
-        let inner = (1..=INNER_SEEDS).map(|k| (at(k), format!("response at {:.6} rad/s", at(k))));
+        let at = |k: u32| low + (high - low) * f64::from(k) / f64::from(inner + 1);
+        let inner = (1..=inner).map(|k| (at(k), format!("response at {:.6} rad/s", at(k))));
         let ends =
             [(low, "low end of the range".to_owned()), (high, "high end of the range".to_owned())];
         let (highest, orders) = (self.excited(), self.orders());

@@ -32,6 +32,8 @@ use crate::header::header;
 
 /// Values of the parameter at which response curves are followed, beside the model's own.
 const SLICES: u32 = 5;
+/// Speeds between the ends of the window at which responses are looked for at each of them.
+const INNER_SEEDS: u32 = 3;
 /// How much more error is tolerated where laws have kinks.
 const AT_KINKS: f64 = 100.0;
 
@@ -209,7 +211,7 @@ impl Plane<'_, '_> {
         };
         setting.odd = shape.odd;
         setting.line = Line::flagged(equations, &shape.flags);
-        let seeds = setting.seeds(self.question.harmonics, observer, counted);
+        let seeds = setting.seeds_between(INNER_SEEDS, self.question.harmonics, observer, counted);
         let job = Job {
             line: &setting.line,
             axis: Axis::Frequency,
