@@ -167,7 +167,8 @@ fn a_question_knows_its_verb() {
     let parameter = Some("half-shaft.cubic=-700..0".to_owned());
     for (name, verb) in Verb::ALL {
         let needed = parameter.clone().filter(|_| verb == Verb::Folds);
-        let text = QuestionText { parameter: needed, ..QuestionText::default() };
+        let frequency = (verb == Verb::Basins).then(|| "4Hz".to_owned());
+        let text = QuestionText { parameter: needed, frequency, ..QuestionText::default() };
         let question = read(verb, &text, &example()).expect("has no options");
         assert_eq!((question.verb(), question.verb().name()), (verb, name));
     }
@@ -242,4 +243,39 @@ fn the_schema_takes_what_the_program_takes() {
     assert_eq!(ratio[0]["type"], "number");
     assert_eq!(ratio[1]["type"], "string");
     assert_eq!(ratio[1]["pattern"], "^\\s*[-−+]?\\.?[0-9]");
+}
+
+// Source: by hand.
+#[test]
+fn basins_have_one_speed_a_window_and_a_grid() {
+    let some = |text: &str| Some(text.to_owned());
+    let asked = |text: &QuestionText| read(Verb::Basins, text, &example());
+    let text = QuestionText {
+        frequency: some("120rpm"),
+        grid: some("30x20"),
+        window: some("-90deg..90deg, -2rad/s..3rad/s"),
+        shaft: some("half-shaft"),
+        periods: some("500"),
+        ..QuestionText::default()
+    };
+    let Ok(Question::Basins(question)) = asked(&text) else { panic!("is sound") };
+    let turn = std::f64::consts::PI;
+    assert!((question.frequency - 4.0 * turn).abs() < 1e-12);
+    assert_eq!((question.grid, question.periods), ((30, 20), 500));
+    let [twist, rate] = question.window.expect("is given");
+    assert!((twist.0 + 0.5 * turn).abs() < 1e-12 && (twist.1 - 0.5 * turn).abs() < 1e-12);
+    assert_eq!(rate, (-2.0, 3.0));
+    // All mistakes at once, each with a hint.
+    let wrong = QuestionText {
+        frequency: some("3Hz..4Hz"),
+        grid: some("30x"),
+        window: some("1rad..2rad"),
+        shaft: some("halfshaft"),
+        ..QuestionText::default()
+    };
+    let errors = asked(&wrong).expect_err("is wrong");
+    let options: Vec<&str> = errors.iter().map(|error| error.option).collect();
+    assert_eq!(options, ["frequency", "shaft", "window", "grid"]);
+    assert!(errors.iter().all(|error| !error.hint.is_empty()), "{errors:?}");
+    assert_eq!(asked(&QuestionText::default()).expect_err("has no speed").len(), 1);
 }
