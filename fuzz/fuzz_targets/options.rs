@@ -40,6 +40,10 @@ fuzz_target!(|text: &str| {
         points: same(),
         parameter: same(),
         equilibrium: same(),
+        grid: same(),
+        window: same(),
+        shaft: same(),
+        periods: same(),
         ..QuestionText::default()
     };
     for (_, verb) in Verb::ALL {
