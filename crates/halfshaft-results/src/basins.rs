@@ -48,8 +48,7 @@ impl BasinsResult {
 /// Something that the line settles to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attractor {
-    /// Periods of the excitation after which it repeats; 0 where it does not, and may be chaotic or go
-    /// round a torus.
+    /// Periods of the excitation after which it repeats.
     pub periods: u32,
     /// Share of the window that leads to it.
     pub share: f64,

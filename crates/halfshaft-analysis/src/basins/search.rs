@@ -3,7 +3,7 @@
 use halfshaft_dynamics::Active;
 use halfshaft_dynamics::lanes::LaneLine;
 use halfshaft_numerics::ensemble::{Settings, by_series};
-use halfshaft_numerics::observer::{Observer, Silent};
+use halfshaft_numerics::observer::{Observer, Part, Silent};
 use halfshaft_numerics::ode::Tolerance;
 
 use super::frame::Frame;
@@ -106,7 +106,7 @@ impl<'s> Search<'s> {
                 repeating,
             };
             let size = CHUNK.min(count - from);
-            let part = Chunk { whole: observer, from, size, count };
+            let part = Part::of(observer, from / CHUNK, count.div_ceil(CHUNK));
             let finished =
                 by_series(&self.line, &task, size, &self.settings, &part).map_err(|source| {
                     AnalysisError::Numerics { doing: "motions are followed", source }
@@ -214,22 +214,4 @@ fn direction(number: usize, components: usize) -> Vec<f64> {
         2.0 * ((number + 1) as f64 * root).fract() - 1.0
     };
     (0..components).map(|_| next()).collect()
-}
-
-/// A chunk of motions, its progress told as a share of all.
-struct Chunk<'o> {
-    whole: &'o dyn Observer,
-    from: usize,
-    size: usize,
-    count: usize,
-}
-
-impl Observer for Chunk<'_> {
-    fn progress(&self, fraction: f64) {
-        self.whole.progress((self.from as f64 + fraction * self.size as f64) / self.count as f64);
-    }
-
-    fn cancelled(&self) -> bool {
-        self.whole.cancelled()
-    }
 }

@@ -51,7 +51,10 @@ pub(crate) fn solve(
     let mut values: Vec<f64> = own.into_iter().collect();
     values.extend((0..SLICES).rev().map(slice));
     let window = window(&lines, &values, question)?;
-    let plane = Plane { lines: &lines, question, window, values: &values, cut: Cell::new(false) };
+    let first = values.iter().find_map(|value| lines.at(*value));
+    let kinks = first.is_some_and(|equations| Line::new(equations).has_kinks());
+    let cut = Cell::new(false);
+    let plane = Plane { lines: &lines, question, window, values: &values, kinks, cut };
     let (curves, counted, cancelled) = plane.curves(observer)?;
     let mut result = plane.result(line, &curves, counted, observer)?;
     if cancelled {
@@ -98,6 +101,8 @@ pub(super) struct Plane<'p, 'q> {
     pub(super) question: &'p FoldsQuestion,
     pub(super) window: (f64, f64),
     values: &'p [f64],
+    /// Whether laws have kinks.
+    kinks: bool,
     /// Whether at some value more responses were left than were followed.
     cut: Cell<bool>,
 }
@@ -126,12 +131,7 @@ impl Plane<'_, '_> {
     /// slowly and a curve of folds would take thousands of times many of them.
     fn tolerance(&self) -> f64 {
         let asked = self.question.tolerance;
-        if self.kinks() { (AT_KINKS * asked).clamp(asked, 1e-3_f64.max(asked)) } else { asked }
-    }
-
-    fn kinks(&self) -> bool {
-        let first = self.values.iter().find_map(|value| self.lines.at(*value));
-        first.is_some_and(|equations| Line::new(equations).has_kinks())
+        if self.kinks { (AT_KINKS * asked).clamp(asked, 1e-3_f64.max(asked)) } else { asked }
     }
 
     /// What all lines of the family have in common.
@@ -290,7 +290,7 @@ impl Plane<'_, '_> {
             self.question.parameter.address,
             at.join(", ")
         ));
-        if self.kinks() && self.question.harmonics.is_none() {
+        if self.kinks && self.question.harmonics.is_none() {
             header.assumptions.push(format!(
                 "laws with kinks: waveforms along the curves are held to {:.0e}; `resonance` locates the \
                  folds at one value by exact orbits",

@@ -322,7 +322,7 @@ impl<'f> FoldSystem<'f> {
         let mut b: Vec<f64> = start.iter().map(|x| x / size).collect();
         let mut c = b.clone();
         for _ in 0..4 {
-            self.evaluate((u, frequency, parameter), (&b, &c))?;
+            self.evaluate_values((u, frequency, parameter), (&b, &c))?;
             let normal = |x: &[f64]| {
                 let size = length(x);
                 x.iter().map(|x| x / size).collect::<Vec<f64>>()

@@ -12,15 +12,13 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use super::problem::{Axis, Failure};
 use super::refine::exact_stability;
 use super::segment::Segment;
-use super::stability::{Crossing, Judge, Stability, counted, pair_angle, test};
+use super::stability::{Crossing, Judge, Stability, counted, crosses, halved, test};
 use super::tracer::{MOST_HARMONICS, Sample, Tracer, length};
 
 /// A place is settled when more harmonics move it by less than this part.
 const SETTLED: f64 = 1e-11;
 /// Rounds of more harmonics at most.
 const MOST_ROUNDS: usize = 12;
-/// Halvings until a test function has opposite signs at both ends.
-const MOST_HALVINGS: usize = 40;
 /// Part of the segment to which a zero is closed in.
 const CLOSED_IN: f64 = 1e-13;
 /// Secants from a known place at most.
@@ -33,9 +31,6 @@ const FIRST_SECANT: f64 = 1e-5;
 const ROUNDING: f64 = 1e-8;
 /// Last coefficients, relative to the whole, that a set of harmonics is chosen for.
 const LAST_COEFFICIENT: f64 = 1e-13;
-
-/// A pair of multipliers nearer to the real axis than this is none, rad.
-const LEAST_ANGLE: f64 = 1e-5;
 
 /// What is zero at a special point.
 pub(super) enum Test<'q> {
@@ -106,45 +101,30 @@ impl Tracer<'_, '_> {
         judge: &mut Judge,
         what: &Test<'_>,
         segment: &Segment,
-        (mut low, mut high): (f64, f64),
+        bracket: (f64, f64),
     ) -> Option<Zero> {
         let at = |tracer: &mut Self, judge: &mut Judge, part: f64| {
             let sample = tracer.between(segment, part, None).ok()?;
             let value = tracer.value(judge, what, &sample);
             Some((value, sample))
         };
-        let (mut at_low, first) = at(self, judge, low)?;
-        let (mut at_high, last) = at(self, judge, high)?;
-        // A test may be undefined at one end; what counts then is on which side it is.
+        let (at_low, first) = at(self, judge, bracket.0)?;
+        let (at_high, last) = at(self, judge, bracket.1)?;
+        if at_low * at_high <= 0.0 {
+            return self.root(judge, what, segment, bracket);
+        }
         let side = |tracer: &mut Self, judge: &mut Judge, sample: &Sample| match what {
             Test::Crossing(crossing) => {
                 tracer.judge(judge, sample).ok().map(|stability| counted(&stability, *crossing))
             }
             _ => None,
         };
-        let opposite = at_low * at_high <= 0.0;
-        if !opposite {
-            let (side_low, side_high) = (side(self, judge, &first), side(self, judge, &last));
-            for _ in 0..MOST_HALVINGS {
-                if at_low * at_high <= 0.0 {
-                    break;
-                }
-                if side_low == side_high {
-                    return None;
-                }
-                let middle = f64::midpoint(low, high);
-                let (value, sample) = at(self, judge, middle)?;
-                if side(self, judge, &sample) == side_low {
-                    (low, at_low) = (middle, value);
-                } else {
-                    (high, at_high) = (middle, value);
-                }
-            }
-        }
-        if at_low * at_high > 0.0 || (at_low * at_high).is_nan() {
-            return None;
-        }
-        self.root(judge, what, segment, (low, high))
+        let sides = (side(self, judge, &first), side(self, judge, &last));
+        let bracket = halved(bracket, (at_low, at_high), sides, |part| {
+            let (value, sample) = at(self, judge, part)?;
+            Some((value, side(self, judge, &sample)))
+        })?;
+        self.root(judge, what, segment, bracket)
     }
 
     /// The zero in a bracket.
@@ -244,14 +224,10 @@ impl Tracer<'_, '_> {
         (left < ROUNDING && self.is_zero(judge, what, &zero.sample)).then_some(zero)
     }
 
-    /// Whether a test is truly zero at a response: where multipliers meet on the real axis, away from
-    /// the unit circle, a test may change its sign by a jump.
+    /// Whether a test is truly zero at a response.
     fn is_zero(&mut self, judge: &mut Judge, what: &Test<'_>, sample: &Sample) -> bool {
         let Test::Crossing(crossing) = what else { return true };
-        let Ok(stability) = self.judge(judge, sample) else { return false };
-        let turned =
-            *crossing != Crossing::Pair || pair_angle(&stability).sin().abs() > LEAST_ANGLE;
-        test(&stability, *crossing).abs() < 1e-6 && turned
+        self.judge(judge, sample).is_ok_and(|stability| crosses(&stability, *crossing))
     }
 
     /// Locates a zero of a test between two samples; harmonics are added until it stands still. Gives

@@ -20,14 +20,13 @@ use super::tracer::Counted;
 use crate::error::AnalysisError;
 use crate::header::header;
 
-/// The range of a parameter, ascending, less an end at which nothing excites the line.
-pub(super) fn excited(lines: &Lines<'_>, range: &ParameterRange) -> (f64, f64) {
+/// The range of a parameter less an end at which nothing excites the line.
+fn excited(lines: &Lines<'_>, range: &ParameterRange) -> (f64, f64) {
     let silent = |value: f64| {
         lines.at(value).is_some_and(|equations| equations.excitation.orders().is_empty())
     };
     let inset = |end: f64, other: f64| if silent(end) { end + INSET * (other - end) } else { end };
-    let (low, high) = (range.from.min(range.to), range.from.max(range.to));
-    (inset(low, high), inset(high, low))
+    (inset(range.from, range.to), inset(range.to, range.from))
 }
 
 /// Part of a range by which an end is left out at which nothing excites the line.

@@ -162,6 +162,46 @@ pub(super) fn pair_angle(stability: &Stability) -> f64 {
         .map_or(f64::NAN, |m| m.argument())
 }
 
+/// A pair of multipliers nearer to the real axis than this is none, rad.
+const LEAST_ANGLE: f64 = 1e-5;
+
+/// Whether a test is truly zero at a response: where multipliers meet on the real axis, away from the
+/// unit circle, it may change its sign by a jump.
+pub(super) fn crosses(stability: &Stability, crossing: Crossing) -> bool {
+    let turned = crossing != Crossing::Pair || pair_angle(stability).sin().abs() > LEAST_ANGLE;
+    test(stability, crossing).abs() < 1e-6 && turned
+}
+
+/// Halvings until a test has opposite signs at both ends.
+const MOST_HALVINGS: usize = 40;
+
+/// A bracket within another at whose ends a test has opposite signs. A test may be undefined at one end;
+/// what counts then is on which side it is: `sides` of both ends, and `at` gives value and side at a part
+/// of the way.
+pub(super) fn halved(
+    (mut low, mut high): (f64, f64),
+    (mut at_low, mut at_high): (f64, f64),
+    sides: (Option<usize>, Option<usize>),
+    mut at: impl FnMut(f64) -> Option<(f64, Option<usize>)>,
+) -> Option<(f64, f64)> {
+    for _ in 0..MOST_HALVINGS {
+        if at_low * at_high <= 0.0 {
+            break;
+        }
+        if sides.0 == sides.1 {
+            return None;
+        }
+        let middle = f64::midpoint(low, high);
+        let (value, side) = at(middle)?;
+        if side == sides.0 {
+            (low, at_low) = (middle, value);
+        } else {
+            (high, at_high) = (middle, value);
+        }
+    }
+    (at_low * at_high <= 0.0).then_some((low, high))
+}
+
 /// The ways in which the unstable dimension may have changed between two responses.
 pub(super) fn crossings(before: &Stability, after: &Stability) -> Vec<Crossing> {
     let moved = |crossing| counted(before, crossing) != counted(after, crossing);

@@ -88,7 +88,7 @@ impl Reader<'_> {
                 return Err(plain(error.to_string()));
             }
         }
-        Ok(ParameterRange { address: address.to_owned(), from: from.min(to), to: from.max(to) })
+        Ok(ParameterRange { address: address.to_owned(), from, to })
     }
 }
 

@@ -29,14 +29,13 @@ pub(crate) fn figure(result: &BasinsResult) -> Figure {
         Axis::new("Its rate at time 0", "rad/s"),
     );
     let cells = Cells::of(&result.grid);
-    for index in (0..result.attractors.len()).chain([usize::MAX, usize::MAX - 1]) {
-        let (key, name, colour) = match index {
-            usize::MAX => (-1, "grows beyond all measure".to_owned(), Colour::DANGER),
-            index if index == usize::MAX - 1 => {
-                (-2, "reached no response in time".to_owned(), Colour::Black)
-            }
-            index => (i32::try_from(index).unwrap_or(i32::MAX), name(result, index), colour(index)),
-        };
+    let caught = (0..).zip(0..result.attractors.len());
+    let caught = caught.map(|(key, index)| (key, name(result, index), colour(index)));
+    let others = [
+        (-1, "grows beyond all measure".to_owned(), Colour::DANGER),
+        (-2, "reached no response in time".to_owned(), Colour::Black),
+    ];
+    for (key, name, colour) in caught.chain(others) {
         let (x, y) = cells.area(key);
         if !x.is_empty() {
             panel = panel.with(Region { opacity: 0.55, ..Region::new(name, x, y, colour) });

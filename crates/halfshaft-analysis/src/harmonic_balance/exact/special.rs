@@ -3,7 +3,9 @@
 use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_results::SpecialKind;
 
-use super::super::stability::{Crossing, counted, crossings, may_be_a_meeting, pair_angle, test};
+use super::super::stability::{
+    Crossing, counted, crosses, crossings, halved, may_be_a_meeting, test,
+};
 use super::curve::Curve;
 use super::point::Point;
 use super::touch::{Touch, touches};
@@ -32,12 +34,8 @@ enum Test {
     Touch(Touch),
 }
 
-/// Halvings until a test has opposite signs at both ends.
-const MOST_HALVINGS: usize = 40;
 /// Part of the distance of two orbits to which a place is found.
 const FINE: f64 = 1e-14;
-/// A pair of multipliers nearer to the real axis than this is none, rad.
-const LEAST_ANGLE: f64 = 1e-5;
 
 impl Test {
     fn value(self, point: &Point) -> f64 {
@@ -57,13 +55,10 @@ impl Test {
         }
     }
 
-    /// Whether the test is truly zero: where multipliers meet on the real axis, away from the unit
-    /// circle, it may change its sign by a jump.
+    /// Whether the test is truly zero.
     fn is_zero(self, point: &Point) -> bool {
         let Self::Crossing(crossing) = self else { return true };
-        let turned =
-            crossing != Crossing::Pair || pair_angle(&point.stability).sin().abs() > LEAST_ANGLE;
-        test(&point.stability, crossing).abs() < 1e-6 && turned
+        crosses(&point.stability, crossing)
     }
 }
 
@@ -124,27 +119,12 @@ impl Curve<'_, '_> {
 
     /// The zero of a test between two points, and how well its parameter is known, relative.
     fn locate(&mut self, what: Test, from: &Point, to: &Point) -> Option<(Point, f64)> {
-        let (mut low, mut high) = (0.0, 1.0);
-        let (mut at_low, mut at_high) = (what.value(from), what.value(to));
-        let (side_low, side_high) = (what.side(from), what.side(to));
-        for _ in 0..MOST_HALVINGS {
-            if at_low * at_high <= 0.0 {
-                break;
-            }
-            if side_low == side_high {
-                return None;
-            }
-            let middle = f64::midpoint(low, high);
-            let point = self.point_between(from, to, middle).ok()?;
-            if what.side(&point) == side_low {
-                (low, at_low) = (middle, what.value(&point));
-            } else {
-                (high, at_high) = (middle, what.value(&point));
-            }
-        }
-        if at_low * at_high > 0.0 || (at_low * at_high).is_nan() {
-            return None;
-        }
+        let sides = (what.side(from), what.side(to));
+        let values = (what.value(from), what.value(to));
+        let (low, high) = halved((0.0, 1.0), values, sides, |part| {
+            let point = self.point_between(from, to, part).ok()?;
+            Some((what.value(&point), what.side(&point)))
+        })?;
         let settings = RootSettings {
             absolute_tolerance: FINE.max(self.limits.enough * self.limits.enough),
             relative_tolerance: 0.0,
