@@ -137,7 +137,7 @@ FOLDS = Case(
     (Reference("cusp", OMEGA_1 - 0.082314212998, None, 6.761266972852),),
     auto=(AutoSettings("accurate", 7, 7, 0.1), AutoSettings("accurate, long steps", 7, 7, 0.25),
           AutoSettings("fast", 7, 5, 0.1), AutoSettings("fast, long steps", 7, 5, 0.25)),
-    averaged=True, fold_range=(4.0, 20.0), fold_tolerance=1e-7, points=280)
+    averaged=True, fold_range=(4.0, 20.0), fold_tolerance=1e-7, points=600)
 
 ABSORBER_CASE = Case(
     "absorber", "Two inertias with an absorber", "absorber.toml", ABSORBER,

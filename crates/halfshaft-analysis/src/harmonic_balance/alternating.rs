@@ -4,6 +4,7 @@
 //! steady-state response of nonlinear dynamic systems", *J. Appl. Mech.* 56 (1989).
 
 use halfshaft_dynamics::Connection;
+use halfshaft_numerics::Complex;
 use halfshaft_numerics::harmonics::{HarmonicSet, Sampler, Spectrum};
 
 use super::kinks::Spectra;
@@ -124,7 +125,7 @@ pub(super) fn neglected(
         return 0.0;
     }
     let beyond = spectrum.values().iter().enumerate().skip(set.highest() + 1);
-    let sum: f64 =
-        beyond.map(|(order, f)| (2.0 * f.modulus() / (order * order) as f64).powi(2)).sum();
-    sum.sqrt() * mobility / (speed * speed) / size
+    let square = |f: &Complex| f.re * f.re + f.im * f.im;
+    let sum: f64 = beyond.map(|(order, f)| square(f) / (order as f64).powi(4)).sum();
+    2.0 * sum.sqrt() * mobility / (speed * speed) / size
 }

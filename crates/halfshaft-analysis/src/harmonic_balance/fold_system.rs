@@ -40,6 +40,10 @@ pub(super) struct FoldSample {
     pub(super) spans: [f64; 3],
 }
 
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 impl FoldSample {
     /// 1 where the two responses that meet exist at higher speeds, -1 at lower ones.
     pub(super) fn opens(&self) -> f64 {
@@ -65,6 +69,8 @@ pub(super) struct FoldSystem<'f> {
     g_parameter: f64,
     residual: Vec<f64>,
     truncation: f64,
+    /// Whether the derivatives are those of the sample made last.
+    kept: bool,
 }
 
 /// Newton iterations at most.
@@ -72,6 +78,8 @@ const MOST_ITERATIONS: usize = 12;
 /// A correction below this has left an error of its square (or, with difference quotients, of a small
 /// part of itself).
 const CONVERGED: f64 = 1e-9;
+/// Error that is left by the last step, judged by the rate of those before.
+const LEFT: f64 = 1e-12;
 /// Steps that shorten no faster than this ask for derivatives anew.
 const SLOW: f64 = 0.05;
 /// Relative step of difference quotients.
@@ -96,34 +104,30 @@ impl<'f> FoldSystem<'f> {
             g_parameter: 0.0,
             residual: vec![0.0; unknowns],
             truncation: 0.0,
+            kept: false,
             problem,
         }
     }
 
     fn evaluate_at(&mut self, u: &[f64], frequency: f64, parameter: f64) -> Result<(), Failure> {
         self.problem.place.frequency = frequency;
-        self.problem.evaluate(u, parameter)
-    }
-
-    /// `out = wᵀ J v` by the blocks at the response last evaluated.
-    fn form(&mut self) -> f64 {
-        self.problem.system.fill(&mut self.bordered);
-        let mut image = vec![0.0; self.v.len()];
-        self.bordered.add_product(&self.v, &mut image);
-        image.iter().zip(&self.w).map(|(a, w)| a * w).sum()
+        self.problem.line_at(parameter)?;
+        let place = self.problem.place_at(parameter);
+        self.problem.system.evaluate(u, place, true);
+        Ok(())
     }
 
     /// Everything at a point, with borders `b`, `c`.
     fn evaluate(
         &mut self,
         (u, frequency, parameter): (&[f64], f64, f64),
-        (b, c): (&[f64], &[f64]),
+        borders: (&[f64], &[f64]),
     ) -> Result<(), Failure> {
-        self.evaluate_at(u, frequency, parameter)?;
+        self.evaluate_values((u, frequency, parameter), borders)?;
         self.by_frequency.copy_from_slice(&self.problem.system.by_frequency);
-        self.by_parameter.copy_from_slice(self.problem.by_parameter());
-        self.bordered_solutions((b, c))?;
-        self.derivatives(u, frequency, parameter)
+        self.problem.system.fill(&mut self.augmented);
+        self.along_null_vector(u, parameter);
+        self.along_parameter(u, parameter)
     }
 
     /// Residual and `g` alone at a point.
@@ -132,10 +136,7 @@ impl<'f> FoldSystem<'f> {
         (u, frequency, parameter): (&[f64], f64, f64),
         borders: (&[f64], &[f64]),
     ) -> Result<(), Failure> {
-        self.problem.place.frequency = frequency;
-        self.problem.line_at(parameter)?;
-        let place = self.problem.place_at(parameter);
-        self.problem.system.evaluate(u, place, true);
+        self.evaluate_at(u, frequency, parameter)?;
         self.bordered_solutions(borders)
     }
 
@@ -159,44 +160,53 @@ impl<'f> FoldSystem<'f> {
         Ok(())
     }
 
-    /// Derivatives of `g`; leaves the augmented system's matrix filled with the Jacobian at `u`.
-    fn derivatives(&mut self, u: &[f64], frequency: f64, parameter: f64) -> Result<(), Failure> {
-        self.problem.system.fill(&mut self.augmented);
+    /// Derivatives of `g` by the unknowns and by the speed: the Jacobian and the residual's slope by the
+    /// speed on both sides of the response along its null vector.
+    fn along_null_vector(&mut self, u: &[f64], parameter: f64) {
         let scale = length(u).max(f64::MIN_POSITIVE.sqrt()) / length(&self.v);
         let step = 1e-3 * scale;
         self.g_u.fill(0.0);
+        self.g_frequency = 0.0;
         let place = self.problem.place_at(parameter);
+        let mut image = vec![0.0; u.len()];
         for sign in [1.0, -1.0] {
             let moved: Vec<f64> = u.iter().zip(&self.v).map(|(u, v)| u + sign * step * v).collect();
-            self.problem.system.evaluate(&moved, place, true);
-            self.problem.system.fill(&mut self.bordered);
-            let mut image = vec![0.0; u.len()];
+            let system = &mut self.problem.system;
+            system.evaluate(&moved, place, true);
+            system.fill(&mut self.bordered);
+            image.fill(0.0);
             self.bordered.add_transposed_product(&self.w, &mut image);
             let factor = -sign / (2.0 * step);
             self.g_u.iter_mut().zip(&image).for_each(|(g, x)| *g += factor * x);
+            self.g_frequency += factor * dot(&self.w, &system.by_frequency);
         }
-        let step = STEP * frequency;
-        let mut difference = 0.0;
-        for sign in [1.0, -1.0] {
-            let mut moved = place;
-            moved.frequency += sign * step;
-            self.problem.system.evaluate(u, moved, true);
-            difference += sign * self.form();
-        }
-        self.g_frequency = -difference / (2.0 * step);
+    }
+
+    /// Derivatives of the residual and of `g` by the second parameter: lines on both sides of it.
+    fn along_parameter(&mut self, u: &[f64], parameter: f64) -> Result<(), Failure> {
+        let Axis::Parameter(_) = self.problem.axis else {
+            self.by_parameter.copy_from_slice(self.problem.by_parameter());
+            self.g_parameter = 0.0;
+            return Ok(());
+        };
+        let step = STEP * parameter.abs().max(1e-3);
+        let place = self.problem.place_at(parameter);
+        self.by_parameter.fill(0.0);
         self.g_parameter = 0.0;
-        if matches!(self.problem.axis, Axis::Parameter(_)) {
-            let step = STEP * parameter.abs().max(1e-3);
-            let mut difference = 0.0;
-            for sign in [1.0, -1.0] {
-                self.problem.line_at(parameter + sign * step)?;
-                self.problem.system.evaluate(u, place, true);
-                difference += sign * self.form();
+        for sign in [1.0, -1.0] {
+            self.problem.line_at(parameter + sign * step)?;
+            let system = &mut self.problem.system;
+            system.evaluate(u, place, true);
+            let factor = sign / (2.0 * step);
+            for (slope, residual) in self.by_parameter.iter_mut().zip(&system.residual) {
+                *slope += factor * residual;
             }
-            self.g_parameter = -difference / (2.0 * step);
-            self.problem.line_at(parameter)?;
+            system.fill(&mut self.bordered);
+            let mut image = vec![0.0; u.len()];
+            self.bordered.add_product(&self.v, &mut image);
+            self.g_parameter -= factor * dot(&self.w, &image);
         }
-        Ok(())
+        self.problem.line_at(parameter)
     }
 
     /// Newton's method under the linear condition `row · (u, Ω, λ) = target`, lengths by `spans`. The
@@ -210,6 +220,11 @@ impl<'f> FoldSystem<'f> {
         spans: [f64; 3],
     ) -> Result<usize, Failure> {
         let (mut before, mut rate) = (f64::INFINITY, f64::INFINITY);
+        // Those of the fold before may still do.
+        if self.kept && self.factorise_augmented((row, row_frequency, row_parameter)).is_ok() {
+            rate = 0.0;
+        }
+        self.kept = false;
         for iteration in 1..=MOST_ITERATIONS {
             let here = (&point.0[..], point.1, point.2);
             let fresh = rate > SLOW;
@@ -248,7 +263,7 @@ impl<'f> FoldSystem<'f> {
             if before.is_finite() {
                 rate = rate.max(size / before);
             }
-            if size <= CONVERGED && size * rate <= CONVERGED * CONVERGED.sqrt() {
+            if size <= CONVERGED && size * rate <= LEFT {
                 return Ok(iteration);
             }
             before = size;
@@ -293,7 +308,7 @@ impl<'f> FoldSystem<'f> {
             + (border[1] / spans[2]).powi(2))
         .sqrt();
         direction.iter_mut().for_each(|x| *x /= size);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        self.kept = true;
         Ok(FoldSample {
             set: self.problem.system.set.clone(),
             tangent: (direction, border[0] / size, border[1] / size),

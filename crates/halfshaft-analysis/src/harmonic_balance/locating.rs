@@ -19,8 +19,12 @@ use super::tracer::{MOST_HARMONICS, Sample, Tracer, length};
 const SETTLED: f64 = 1e-11;
 /// Rounds of more harmonics at most.
 const MOST_ROUNDS: usize = 12;
+/// A multiplier further from the circle than this where it was closed in on jumps over it.
+const JUMP: f64 = 1e-2;
 /// Part of the segment to which a zero is closed in.
 const CLOSED_IN: f64 = 1e-13;
+/// The same where secants over more harmonics go on from there.
+const CLOSE: f64 = 1e-5;
 /// Secants from a known place at most.
 const MOST_SECANTS: usize = 8;
 /// A secant further than this part of the segment is not one from a place known before.
@@ -95,23 +99,28 @@ impl Tracer<'_, '_> {
         judge.stability(&self.problem.system, &sample.u, place)
     }
 
-    /// Closes in on a zero of a test between two samples over one set of harmonics.
+    /// Closes in on a zero of a test between two samples over one set of harmonics, to a part of the
+    /// segment.
     fn close_in(
         &mut self,
         judge: &mut Judge,
         what: &Test<'_>,
         segment: &Segment,
         bracket: (f64, f64),
+        close: f64,
     ) -> Option<Zero> {
-        let at = |tracer: &mut Self, judge: &mut Judge, part: f64| {
+        let mut seen: Vec<(f64, f64)> = Vec::new();
+        let mut at = |tracer: &mut Self, judge: &mut Judge, part: f64| {
             let sample = tracer.between(segment, part, None).ok()?;
             let value = tracer.value(judge, what, &sample);
+            seen.push((part, value));
             Some((value, sample))
         };
         let (at_low, first) = at(self, judge, bracket.0)?;
         let (at_high, last) = at(self, judge, bracket.1)?;
         if at_low * at_high <= 0.0 {
-            return self.root(judge, what, segment, bracket);
+            let near = (last, bracket.1);
+            return self.root(judge, what, segment, bracket, (seen, Some(near), close));
         }
         let side = |tracer: &mut Self, judge: &mut Judge, sample: &Sample| match what {
             Test::Crossing(crossing) => {
@@ -124,26 +133,28 @@ impl Tracer<'_, '_> {
             let (value, sample) = at(self, judge, part)?;
             Some((value, side(self, judge, &sample)))
         })?;
-        self.root(judge, what, segment, bracket)
+        self.root(judge, what, segment, bracket, (seen, None, close))
     }
 
-    /// The zero in a bracket.
+    /// The zero in a bracket, given the values seen and the response whose factors are the ones last made.
     fn root(
         &mut self,
         judge: &mut Judge,
         what: &Test<'_>,
         segment: &Segment,
         (low, high): (f64, f64),
+        (mut seen, mut near, close): (Vec<(f64, f64)>, Option<(Sample, f64)>, f64),
     ) -> Option<Zero> {
         let settings = RootSettings {
-            absolute_tolerance: CLOSED_IN,
+            absolute_tolerance: close,
             relative_tolerance: 0.0,
             ..RootSettings::default()
         };
-        let mut seen: Vec<(f64, f64)> = Vec::new();
-        let mut near: Option<(Sample, f64)> = None;
         let root = find_root(
             |part| {
+                if let Some((_, value)) = seen.iter().find(|(known, _)| *known == part) {
+                    return *value;
+                }
                 let close = near.as_ref().filter(|(_, at)| (part - at).abs() < FARTHEST_SECANT);
                 let beside = close.and_then(|(sample, at)| {
                     self.nearby(segment, (sample, *at), part, what.is_directed()).ok()
@@ -164,10 +175,16 @@ impl Tracer<'_, '_> {
             settings,
         )
         .ok()?;
-        let sample = self.between(segment, root.value, near.as_ref().map(|near| &near.0)).ok()?;
+        let left =
+            seen.iter().find(|(part, _)| *part == root.value).map_or(f64::NAN, |seen| seen.1);
+        if close > CLOSED_IN && matches!(what, Test::Crossing(_)) && left.abs() > JUMP {
+            return None;
+        }
         let slope = slope(&mut seen, root.value);
-        let zero = Zero { sample, part: root.value, slope, left: CLOSED_IN };
-        self.is_zero(judge, what, &zero.sample).then_some(zero)
+        let near = near.as_ref().map(|near| &near.0);
+        let sample = self.between(segment, root.value, near).ok()?;
+        let zero = Zero { sample, part: root.value, slope, left: close };
+        (close > CLOSED_IN || self.is_zero(judge, what, &zero.sample)).then_some(zero)
     }
 
     /// A zero over more harmonics, by secants from where it was over fewer.
@@ -241,7 +258,9 @@ impl Tracer<'_, '_> {
     ) -> Option<(Sample, f64)> {
         let highest = pair.0.set.highest().max(pair.1.set.highest());
         let mut segment = Segment::new(self, pair, &pair.0.set.up_to(highest));
-        let mut zero = self.close_in(judge, what, &segment, (0.0, 1.0))?;
+        let more = self.settings.harmonics.is_none() && !self.shoots();
+        let close = if more && !matches!(what, Test::Orientation) { CLOSE } else { CLOSED_IN };
+        let mut zero = self.close_in(judge, what, &segment, (0.0, 1.0), close)?;
         if self.settings.harmonics.is_some() {
             return Some((zero.sample, CLOSED_IN));
         }
@@ -252,11 +271,21 @@ impl Tracer<'_, '_> {
         let mut precision = f64::NAN;
         for round in 0..MOST_ROUNDS {
             let next = more_harmonics(&zero.sample);
-            if next == segment.set {
-                break;
+            let mut found = None;
+            if next != segment.set {
+                let finer = Segment::new(self, pair, &next);
+                found = self.over_more(judge, what, &finer, &zero, round);
+                if found.is_some() {
+                    segment = finer;
+                }
             }
-            segment = Segment::new(self, pair, &next);
-            let Some(found) = self.over_more(judge, what, &segment, &zero, round) else { break };
+            let Some(found) = found else {
+                if round == 0 && close > CLOSED_IN {
+                    // Over these harmonics then, and to the end.
+                    zero = self.close_in(judge, what, &segment, (0.0, 1.0), CLOSED_IN)?;
+                }
+                break;
+            };
             let p = found.sample.p;
             let moved = (p - zero.sample.p).abs().max(found.left * segment.parameter_span());
             precision = moved / p.abs().max(f64::MIN_POSITIVE);
@@ -285,7 +314,7 @@ impl Tracer<'_, '_> {
         let mut width: f64 = if round == 0 { 1e-2 } else { 1e-3 };
         loop {
             let bracket = ((zero.part - width).max(-0.5), (zero.part + width).min(1.5));
-            match self.close_in(judge, what, segment, bracket) {
+            match self.close_in(judge, what, segment, bracket, CLOSED_IN) {
                 Some(found) => return Some(found),
                 None if width < 0.5 => width *= 5.0,
                 None => return None,

@@ -2,6 +2,7 @@
 
 use super::bridge;
 use super::matrix::Matrix;
+use super::small;
 use crate::complex::Complex;
 use crate::error::{Error, all_finite};
 
@@ -29,7 +30,13 @@ pub fn eigenvalues(matrix: &Matrix) -> Result<Vec<Complex>, Error> {
         [] => Vec::new(),
         [a] => vec![Complex::from(a)],
         [a, b, c, d] => two_by_two(a, b, c, d).to_vec(),
-        _ => bridge::general(matrix, false)?.0,
+        _ => {
+            let small = (matrix.rows() <= small::MOST).then(|| small::eigenvalues(matrix));
+            match small.flatten() {
+                Some(values) => values,
+                None => bridge::general(matrix, false)?.0,
+            }
+        }
     };
     values.sort_by(order);
     Ok(values)
@@ -74,7 +81,7 @@ fn order(a: &Complex, b: &Complex) -> std::cmp::Ordering {
 
 /// Roots of the characteristic equation as corrections of the diagonal: `a + b c / z`, `d - b c /
 /// z` with `z² - 2 p z - b c = 0`, `p = (a - d)/2`, which loses nothing when `b c` is small.
-fn two_by_two(a: f64, b: f64, c: f64, d: f64) -> [Complex; 2] {
+pub(super) fn two_by_two(a: f64, b: f64, c: f64, d: f64) -> [Complex; 2] {
     let p = 0.5 * a - 0.5 * d;
     let scale = p.abs().max(b.abs()).max(c.abs());
     if b == 0.0 || c == 0.0 {

@@ -12,6 +12,7 @@ mod bridge;
 mod general;
 mod lu;
 mod matrix;
+mod small;
 mod symmetric;
 
 pub use general::{Eigen, eigen, eigenvalues};

@@ -16,6 +16,8 @@ const VANISHED: f64 = 1e-6;
 const NEAR: f64 = 3e-3;
 /// An own part that shrinks to this part of itself where it changes its sign passes through nothing.
 const SHRUNK: f64 = 0.3;
+/// How far beside the place at which it should vanish it is also looked at, as a part of the way there.
+const BESIDE: f64 = 0.2;
 
 /// How a step relates to the branch that a branch branches off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,8 +135,13 @@ impl Curve<'_, '_> {
         if dot >= 0.0 {
             return false;
         }
-        let between = self.point_between(last, next, earlier / (earlier + size));
-        let Ok(Ok(Some(there))) = between.map(|point| self.own_part(&point)) else { return false };
-        length(&there) < SHRUNK * size.min(earlier)
+        let part = earlier / (earlier + size);
+        let beside = BESIDE * part.min(1.0 - part);
+        // Where the branches cross Newton's method may fail.
+        [part, part + beside, part - beside].into_iter().any(|part| {
+            let there = self.point_between(last, next, part).map(|point| self.own_part(&point));
+            let there = there.ok().and_then(|own| own.ok().flatten());
+            there.is_some_and(|there| length(&there) < SHRUNK * size.min(earlier))
+        })
     }
 }
