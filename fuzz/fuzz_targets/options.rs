@@ -44,6 +44,8 @@ fuzz_target!(|text: &str| {
         window: same(),
         shaft: same(),
         periods: same(),
+        rate: same(),
+        friction: same(),
         ..QuestionText::default()
     };
     for (_, verb) in Verb::ALL {

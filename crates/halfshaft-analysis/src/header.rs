@@ -2,7 +2,7 @@
 
 use halfshaft_model::Driveline;
 use halfshaft_model::elements::Shaft;
-use halfshaft_model::question::Question;
+use halfshaft_model::question::{DryFriction, Question, ShockMethod};
 use halfshaft_results::{Header, ModelIdentity, Termination};
 
 /// The head of an answer to `question` about `line` that was answered in full.
@@ -14,14 +14,25 @@ pub(crate) fn header(line: &Driveline, question: &Question) -> Header {
         termination: Termination::completed(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         warnings: Vec::new(),
-        assumptions: friction(line),
+        assumptions: friction(line, question),
     }
 }
 
-/// How dry friction is smoothed.
-fn friction(line: &Driveline) -> Vec<String> {
+/// How dry friction is taken.
+fn friction(line: &Driveline, question: &Question) -> Vec<String> {
+    let exact = match question {
+        Question::Simulate(simulate) => simulate.friction == DryFriction::Exact,
+        Question::Shock(shock) => shock.method == ShockMethod::Full,
+        _ => false,
+    };
     let rough = line.shafts().iter().filter(|shaft| shaft.friction_nm > 0.0);
     let sentence = |shaft: &Shaft| {
+        if exact {
+            return format!(
+                "the dry friction of {} is exact: it slides with {} N·m or sticks",
+                shaft.name, shaft.friction_nm
+            );
+        }
         format!(
             "the dry friction of {} is smoothed: {} N·m · tanh(rate of twist / {} rad/s); at rest it \
              carries nothing, and a shaft that sticks creeps",

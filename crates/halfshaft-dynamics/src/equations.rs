@@ -1,6 +1,6 @@
 //! Inertias and connections of a line with the gears taken out.
 
-use halfshaft_model::elements::MeanTorque;
+use halfshaft_model::elements::{Engagement, MeanTorque};
 use halfshaft_model::{Driveline, End, Network, Topology};
 
 use crate::error::DynamicsError;
@@ -26,6 +26,8 @@ pub struct Connection {
     pub damps_in_gap: bool,
     /// Dry friction in parallel.
     pub friction: Option<Friction>,
+    /// When the friction comes to bear, for motions in time; `None` from the beginning.
+    pub engagement: Option<Engagement>,
 }
 
 impl Connection {
@@ -80,6 +82,8 @@ pub struct EquationsOfMotion {
     pub rigid: Option<RigidBody>,
     /// External torques.
     pub excitation: Excitation,
+    /// Number of elastic meshes of gears, the last of the connections.
+    pub meshes: usize,
 }
 
 impl EquationsOfMotion {
@@ -128,6 +132,7 @@ impl EquationsOfMotion {
             network,
             rigid,
             excitation,
+            meshes: line.meshes().count(),
         })
     }
 
@@ -164,6 +169,24 @@ impl EquationsOfMotion {
         }
     }
 
+    /// Times at which torques or frictions change their law, ascending, each once.
+    pub fn breaks(&self) -> Vec<f64> {
+        let mut times = self.excitation.breaks();
+        let engagements = self.connections.iter().filter_map(|connection| connection.engagement);
+        times.extend(engagements.flat_map(|engagement| [engagement.start_s, engagement.end_s()]));
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// `wᵀ M⁻¹ w` of connection `index`: acceleration of its twist by a torque across it, 1/(kg·m²).
+    pub fn compliance_of(&self, index: usize) -> f64 {
+        let mut direction = vec![0.0; self.groups()];
+        self.add_direction(index, 1.0, &mut direction);
+        direction.iter_mut().zip(&self.inertia).for_each(|(w, m)| *w /= m);
+        self.twist(index, &direction)
+    }
+
     /// Kinetic energy for group speeds `speeds`, J.
     pub fn kinetic_energy(&self, speeds: &[f64]) -> f64 {
         self.inertia.iter().zip(speeds).map(|(m, v)| 0.5 * m * v * v).sum()
@@ -198,6 +221,7 @@ fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
             torque_nm: shaft.friction_nm,
             speed_rad_s: shaft.friction_speed_rad_s,
         }),
+        engagement: shaft.engagement,
     });
     let meshes = line.meshes().map(|gear| Connection {
         name: gear.name.clone(),
@@ -207,6 +231,7 @@ fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
         damping: gear.damping_nm_s_per_rad.unwrap_or(0.0),
         damps_in_gap: gear.damps_in_gap,
         friction: None,
+        engagement: None,
     });
     let placed = |(connection, [from, to]): (Connection, &[End; 2])| Connection {
         from: *from,

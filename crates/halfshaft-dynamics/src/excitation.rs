@@ -1,6 +1,6 @@
 //! External torques over time, as torques on the groups.
 
-use halfshaft_model::elements::{Harmonic, MeanTorque, Pulse, PulseShape};
+use halfshaft_model::elements::{Harmonic, MeanTorque, Pulse, PulseShape, TorqueTable};
 use halfshaft_model::{Driveline, Topology};
 
 /// One external torque of the line.
@@ -23,6 +23,8 @@ pub struct Source {
     pub own_frequency: Option<f64>,
     /// A part that acts once.
     pub pulse: Option<Pulse>,
+    /// Torque over time, added while pulses act.
+    pub table: Option<TorqueTable>,
     /// Power of the speed with which the harmonics grow; 0 where they do not.
     pub speed_power: f64,
     /// Speed at which the harmonics have the stated amplitudes, rad/s.
@@ -56,8 +58,11 @@ impl Source {
 pub struct Active {
     /// Mean torques.
     pub mean: bool,
-    /// Excitation speed Ω (rad/s) for harmonics of an order; `None` silences those.
+    /// Excitation speed Ω (rad/s) for harmonics of an order; `None` silences those. At time zero, where
+    /// the speed moves.
     pub frequency: Option<f64>,
+    /// Rate at which Ω moves, rad/s²: a run-up or run-down.
+    pub acceleration: f64,
     /// Harmonics with a frequency of their own.
     pub own_frequencies: bool,
     /// Pulses.
@@ -67,7 +72,7 @@ pub struct Active {
 impl Active {
     /// Everything, at excitation speed `frequency`.
     pub fn all(frequency: Option<f64>) -> Self {
-        Self { mean: true, frequency, own_frequencies: true, pulses: true }
+        Self { mean: true, frequency, own_frequencies: true, pulses: true, acceleration: 0.0 }
     }
 
     /// Mean torques and pulses only.
@@ -106,6 +111,7 @@ impl Excitation {
                 harmonics: loud.copied().collect(),
                 own_frequency: torque.frequency_rad_s,
                 pulse: torque.pulse.clone(),
+                table: torque.table.clone(),
                 speed_power: torque.speed_power.unwrap_or(0.0),
                 reference_speed: torque.reference_speed_rad_s.unwrap_or(1.0),
             })
@@ -178,10 +184,12 @@ impl Excitation {
         pulses.into_iter().any(|pulse| pulse.shape == PulseShape::Ramp)
     }
 
-    /// Times at which pulses begin or end, ascending, each once.
+    /// Times at which pulses begin or end or a table has a point, ascending, each once.
     pub fn breaks(&self) -> Vec<f64> {
         let pulses = self.sources.iter().filter_map(|source| source.pulse.as_ref());
         let mut times: Vec<f64> = pulses.flat_map(|pulse| [pulse.start_s, pulse.end_s()]).collect();
+        let tables = self.sources.iter().filter_map(|source| source.table.as_ref());
+        times.extend(tables.flat_map(|table| table.time_s.iter().copied()));
         times.sort_by(f64::total_cmp);
         times.dedup();
         times
@@ -206,7 +214,8 @@ impl Excitation {
         let of = |source: &Source| {
             let harmonics: f64 = source.harmonics.iter().map(|h| h.amplitude_nm.abs()).sum();
             let pulse = source.pulse.as_ref().map_or(0.0, |pulse| pulse.peak_nm.abs());
-            source.ratio.abs() * (source.mean.abs() + harmonics + pulse)
+            let table = source.table.as_ref().map_or(0.0, TorqueTable::largest);
+            source.ratio.abs() * (source.mean.abs() + harmonics + pulse + table)
         };
         self.sources.iter().map(of).sum()
     }

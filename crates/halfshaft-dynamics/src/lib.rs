@@ -14,6 +14,8 @@
 //! - [`Excitation`]: torques over time.
 //! - [`Motion`]: the same as a first-order system for the integrators, in twists of the
 //!   spanning tree and the mean angle, with work and heat beside it.
+//! - [`Modes`]: what connections do between two events (contact, stages, stick and slip), and where that
+//!   ends.
 //! - [`lanes`]: many motions at once, by Taylor series over vector registers.
 
 mod equations;
@@ -22,12 +24,16 @@ mod excitation;
 pub mod lanes;
 pub mod laws;
 mod linear;
+mod modes;
 mod motion;
 mod rigid;
+mod switching;
 
 pub use equations::{Connection, EquationsOfMotion, NodePlace};
 pub use error::DynamicsError;
 pub use excitation::{Active, Excitation, Source};
 pub use laws::{DescribingFunction, Friction, TorqueLaw};
+pub use modes::{Modes, Sliding};
 pub use motion::{Kinematics, Motion};
 pub use rigid::RigidBody;
+pub use switching::{Border, BorderKind, EventKind, ModeEvent};

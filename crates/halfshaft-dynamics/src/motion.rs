@@ -5,10 +5,14 @@
 //! tolerances mean twists. State: `[x.., s | x'.., s' | work, heat]`, the last two where
 //! the energy is kept.
 
+use std::sync::Arc;
+
+use halfshaft_numerics::dense::{Matrix, solve};
 use halfshaft_numerics::ode::{Linearised, System};
 
 use crate::equations::EquationsOfMotion;
 use crate::excitation::{Active, Excitation, Source};
+use crate::modes::{Modes, Sliding};
 use halfshaft_model::elements::{Pulse, PulseShape};
 
 /// Angles and speeds of all groups, twists and rates of all connections.
@@ -41,6 +45,12 @@ pub struct Motion<'l> {
     /// Whether the accelerations depend on group angles or speeds, not only on tree twists.
     needs_groups: bool,
     phases: Vec<Phase>,
+    /// What connections do until the next event; `None` where laws are taken as they are.
+    modes: Option<Arc<Modes>>,
+    /// Torque of each connection, and the dry friction in it, at the state last evaluated.
+    torques: Vec<f64>,
+    friction: Vec<f64>,
+    time: f64,
     kinematics: Kinematics,
     /// Scratch: torque on each group without dampers to ground, then its acceleration.
     external: Vec<f64>,
@@ -61,6 +71,10 @@ impl<'l> Motion<'l> {
                 || !equations.network.loops.is_empty()
                 || equations.ground_damping.iter().any(|damping| *damping != 0.0),
             phases: vec![Phase::Before; equations.excitation.sources.len()],
+            modes: None,
+            torques: vec![0.0; connections],
+            friction: vec![0.0; connections],
+            time: 0.0,
             kinematics: Kinematics {
                 angles: vec![0.0; groups],
                 speeds: vec![0.0; groups],
@@ -77,6 +91,34 @@ impl<'l> Motion<'l> {
     /// The line.
     pub fn equations(&self) -> &'l EquationsOfMotion {
         self.equations
+    }
+
+    /// What connections do until the next event; `None` where laws are taken as they are.
+    pub fn modes(&self) -> Option<&Arc<Modes>> {
+        self.modes.as_ref()
+    }
+
+    /// Takes the connections as doing this until told otherwise.
+    pub fn set_modes(&mut self, modes: Arc<Modes>) {
+        self.modes = Some(modes);
+    }
+
+    /// Torque of each connection at the state last evaluated by [`System::derivative`], N·m.
+    pub fn torques(&self) -> &[f64] {
+        &self.torques
+    }
+
+    /// Dry friction torque of each connection at the state last evaluated, N·m; where it sticks what
+    /// that takes.
+    pub fn friction(&self) -> &[f64] {
+        &self.friction
+    }
+
+    /// Dry friction torque that a connection can bear at time `t`, N·m.
+    pub fn capacity(&self, index: usize, t: f64) -> f64 {
+        let connection = &self.equations.connections[index];
+        let engaged = connection.engagement.map_or(1.0, |engagement| engagement.share(t));
+        connection.friction.map_or(0.0, |friction| engaged * friction.torque_nm)
     }
 
     /// Number of coordinates: twists of the spanning tree and the mean angle of a free line.
@@ -170,6 +212,7 @@ impl<'l> Motion<'l> {
 
     /// Torques on the groups at time `t` without dampers to ground, to `external`.
     fn load(&mut self, t: f64) {
+        self.time = t;
         self.external.fill(0.0);
         let Excitation { sources } = &self.equations.excitation;
         for (source, phase) in sources.iter().zip(&self.phases) {
@@ -182,14 +225,67 @@ impl<'l> Motion<'l> {
     /// ones. Needs the kinematics.
     fn assemble(&mut self) {
         self.net.copy_from_slice(&self.external);
-        let Kinematics { speeds, twists, rates, .. } = &self.kinematics;
-        for (index, connection) in self.equations.connections.iter().enumerate() {
-            let torque = connection.law.torque(twists[index])
-                + connection.resistance(twists[index], rates[index]);
+        for index in 0..self.equations.connections.len() {
+            let torque = self.connection_torque(index);
+            self.torques[index] = torque;
             self.equations.add_direction(index, -torque, &mut self.net);
         }
+        let speeds = &self.kinematics.speeds;
         for (group, damping) in self.equations.ground_damping.iter().enumerate() {
             self.net[group] -= damping * speeds[group];
+        }
+        self.hold_stuck();
+    }
+
+    /// Torque of a connection but for what makes it stick.
+    fn connection_torque(&mut self, index: usize) -> f64 {
+        let connection = &self.equations.connections[index];
+        let (x, v) = (self.kinematics.twists[index], self.kinematics.rates[index]);
+        let Some(modes) = &self.modes else {
+            return connection.law.torque(x) + connection.resistance(x, v);
+        };
+        let mode = &modes.list[index];
+        let elastic = match mode.piece() {
+            Some(piece) => piece.torque.evaluate(x - piece.origin),
+            None => connection.law.torque(x),
+        };
+        let viscous = if mode.damps { connection.damping * v } else { 0.0 };
+        let dry = match mode.sliding {
+            None => connection.friction.map_or(0.0, |friction| friction.torque(v)),
+            Some(Sliding::Forward) => self.capacity(index, self.time),
+            Some(Sliding::Backward) => -self.capacity(index, self.time),
+            Some(Sliding::Stuck) => 0.0,
+        };
+        self.friction[index] = dry;
+        elastic + viscous + dry
+    }
+
+    /// Adds the friction torques that keep sticking connections from sliding: with `w` their directions
+    /// `wᵀ M⁻¹ (net - Σ w λ) = 0`.
+    fn hold_stuck(&mut self) {
+        let Some(modes) = &self.modes else { return };
+        let stuck: Vec<usize> = modes.stuck().collect();
+        if stuck.is_empty() {
+            return;
+        }
+        let equations = self.equations;
+        let accelerations: Vec<f64> =
+            self.net.iter().zip(&equations.inertia).map(|(q, m)| q / m).collect();
+        let pushed: Vec<f64> =
+            stuck.iter().map(|index| equations.twist(*index, &accelerations)).collect();
+        let compliance = |i: usize, j: usize| {
+            let mut direction = vec![0.0; equations.groups()];
+            equations.add_direction(stuck[j], 1.0, &mut direction);
+            direction.iter_mut().zip(&equations.inertia).for_each(|(w, m)| *w /= m);
+            equations.twist(stuck[i], &direction)
+        };
+        let matrix = Matrix::from_fn(stuck.len(), stuck.len(), compliance);
+        // Connections that stick in a loop hold each other: any share does.
+        let Ok(held) = solve(&matrix, &pushed) else { return };
+        for (index, torque) in stuck.iter().zip(held) {
+            self.friction[*index] = torque;
+            self.torques[*index] += torque;
+            equations.add_direction(*index, -torque, &mut self.net);
         }
     }
 
@@ -209,6 +305,10 @@ impl<'l> Motion<'l> {
         }
         for (index, edge) in self.equations.network.tree.iter().enumerate() {
             out[index] = self.equations.twist(edge.shaft, &self.net);
+            let sliding = self.modes.as_ref().and_then(|modes| modes.list[edge.shaft].sliding);
+            if sliding == Some(Sliding::Stuck) {
+                out[index] = 0.0;
+            }
         }
         if let Some(acceleration) = rigid_torque {
             out[self.coordinates() - 1] = acceleration;
@@ -232,15 +332,19 @@ pub(crate) fn rate_jumps(equations: &EquationsOfMotion, t: f64) -> Option<Vec<f6
 fn source_torque(source: &Source, phase: Phase, active: &Active, t: f64) -> f64 {
     let mut torque = if active.mean { source.mean } else { 0.0 };
     let speed = match source.own_frequency {
-        Some(own) => active.own_frequencies.then_some(own),
-        None => active.frequency,
+        Some(own) => active.own_frequencies.then_some((own, 0.0)),
+        None => active.frequency.map(|speed| (speed, active.acceleration)),
     };
-    if let Some(speed) = speed {
-        let growth = source.growth(speed);
+    if let Some((speed, acceleration)) = speed {
+        let growth = source.growth(speed + acceleration * t);
+        let turned = (speed + 0.5 * acceleration * t) * t;
         for harmonic in &source.harmonics {
-            let angle = harmonic.order * speed * t + harmonic.phase_rad;
+            let angle = harmonic.order * turned + harmonic.phase_rad;
             torque += growth * harmonic.amplitude_nm * angle.cos();
         }
+    }
+    if let Some(table) = source.table.as_ref().filter(|_| active.pulses) {
+        torque += table.torque(t);
     }
     if let Some(pulse) = source.pulse.as_ref().filter(|_| active.pulses) {
         torque += pulse_torque(pulse, phase, t);
@@ -292,8 +396,16 @@ impl System for Motion<'_> {
         if self.with_energy {
             let Kinematics { speeds, twists, rates, .. } = &self.kinematics;
             rate[2 * n] = self.external.iter().zip(speeds).map(|(q, v)| q * v).sum();
-            let shafts = self.equations.connections.iter().zip(twists).zip(rates);
-            let inside: f64 = shafts.map(|((c, x), v)| c.resistance(*x, *v) * v).sum();
+            let shafts = self.equations.connections.iter().zip(twists).zip(rates).enumerate();
+            let resistance = |index: usize, c: &crate::Connection, x: f64, v: f64| match &self.modes {
+                None => c.resistance(x, v),
+                Some(modes) => {
+                    let damps = modes.list[index].damps;
+                    self.friction[index] + if damps { c.damping * v } else { 0.0 }
+                }
+            };
+            let inside: f64 =
+                shafts.map(|(index, ((c, x), v))| resistance(index, c, *x, *v) * v).sum();
             let ground = self.equations.ground_damping.iter().zip(speeds);
             let outside: f64 = ground.map(|(d, v)| d * v * v).sum();
             rate[2 * n + 1] = inside + outside;

@@ -8,8 +8,8 @@
 use crate::diagnostic::did_you_mean;
 use crate::driveline::Driveline;
 use crate::elements::{
-    GEAR, HARMONIC, Harmonic, INERTIA, MEASURED, MeanTorque, PULSE, SHAFT, STAGE, Shaft, TORQUE,
-    Torque,
+    ENGAGEMENT, GEAR, HARMONIC, Harmonic, INERTIA, MEASURED, MeanTorque, PULSE, SHAFT, STAGE, Shaft, TORQUE,
+    TORQUE_TABLE, Torque,
 };
 use crate::format::{TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
@@ -204,6 +204,9 @@ fn numbers_of_law(shaft: &Shaft) -> Vec<Number> {
         numbers.extend(listed(&MEASURED, "twist", "table.twist", table.twist_rad.len()));
         numbers.extend(listed(&MEASURED, "torque", "table.torque", table.torque_nm.len()));
     }
+    if shaft.engagement.is_some() {
+        numbers.extend(numbers_of(&ENGAGEMENT, "engagement."));
+    }
     numbers
 }
 
@@ -213,6 +216,9 @@ fn numbers_of_torque(torque: &Torque) -> Vec<Number> {
     let mut numbers = Vec::new();
     if torque.pulse.is_some() {
         numbers.extend(numbers_of(&PULSE, "pulse."));
+    }
+    if let Some(table) = &torque.table {
+        numbers.extend(listed(&TORQUE_TABLE, "torque", "table.torque", table.torque_nm.len()));
     }
     // Entry 0 is that of the torque's own keys.
     for number in 1..torque.harmonics.len() {

@@ -29,6 +29,8 @@ pub enum Reason {
     Unanswered,
     /// A shaft was twisted so far past the limit of its law that nothing holds it back.
     RunsAway,
+    /// A connection changes its mode again and again without time passing.
+    Chattering,
 }
 
 /// How an analysis ended.

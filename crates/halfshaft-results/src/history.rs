@@ -79,6 +79,61 @@ pub struct ShaftMetrics {
     pub damping_ratio: Option<f64>,
 }
 
+/// A contact, a stage, a stick or a slip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HistoryEvent {
+    /// When, s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub time: f64,
+    /// Name of the shaft or gear.
+    pub element: String,
+    /// `contact`, `separation`, `stage`, `stick` or `slip`.
+    pub kind: String,
+    /// What happens, in words, with the element.
+    pub text: String,
+    /// Twist, rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub twist: f64,
+    /// Rate of twist, rad/s: the impact speed of a contact.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub twist_rate: f64,
+    /// Of a contact: the kinetic energy in the rate of twist, J.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<f64>,
+}
+
+/// What happened at one connection over the recorded time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ConnectionEvents {
+    /// Contacts.
+    pub contacts: u64,
+    /// Contacts lost.
+    pub separations: u64,
+    /// Contacts on the other side than the one before.
+    pub lash_crossings: u64,
+    /// Changes from one stage to another.
+    pub stage_changes: u64,
+    /// How often dry friction came to stick.
+    pub sticks: u64,
+    /// How often it broke away or turned its direction.
+    pub slips: u64,
+    /// Largest rate of twist at a contact, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub hardest_impact_speed: f64,
+    /// Largest energy at a contact, J.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub hardest_impact_energy: f64,
+    /// Energies at all contacts together, J.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub impact_energy: f64,
+    /// Part of the time in free play.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub free_share: f64,
+    /// Part of the time in which dry friction sticks.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub stuck_share: f64,
+}
+
 /// Metrics of a time history.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HistoryMetrics {
@@ -88,6 +143,9 @@ pub struct HistoryMetrics {
     pub channels: Named<ChannelMetrics>,
     /// Energy balance of the whole run, where the method is an integration.
     pub energy_balance: Option<EnergyBalance>,
+    /// What happened at each connection with free play, stages or dry friction.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub events: Named<ConnectionEvents>,
     /// Accepted steps of the integration.
     pub steps: u64,
     /// Evaluations of the equations of motion.
@@ -156,6 +214,9 @@ pub struct HistoryResult {
     pub columns: Vec<Column>,
     /// Metrics.
     pub metrics: HistoryMetrics,
+    /// Contacts, stages, stick and slip in order of time, up to ten thousand.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub events: Vec<HistoryEvent>,
     /// What `shock` says beyond its history.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shock: Option<ShockDetails>,

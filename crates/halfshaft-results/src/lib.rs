@@ -40,8 +40,8 @@ pub use equilibrium::{
 pub use folds::{FoldsResult, ResponseCount};
 pub use header::{Header, ModelIdentity, Reason, Termination};
 pub use history::{
-    ChannelMetrics, EnergyBalance, HistoryMetrics, HistoryResult, MethodRow, ShaftMetrics,
-    ShockDetails,
+    ChannelMetrics, ConnectionEvents, EnergyBalance, HistoryEvent, HistoryMetrics, HistoryResult,
+    MethodRow, ShaftMetrics, ShockDetails,
 };
 pub use modes::{Mode, ModesResult};
 pub use report::{LevelRow, MissingSection, ReportResult};

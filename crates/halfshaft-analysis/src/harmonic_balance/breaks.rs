@@ -89,6 +89,7 @@ mod tests {
             damping: c,
             damps_in_gap: false,
             friction: None,
+            engagement: None,
         };
         let set = HarmonicSet::all(1);
         let (sin, cos) = f64::sin_cos(SHIFT);

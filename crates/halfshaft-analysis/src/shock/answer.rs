@@ -106,6 +106,7 @@ impl ShockProblem<'_> {
             shafts: shaft_metrics(&self.equations, &run, &rest, &self.rest.torques),
             channels: channel_metrics(&run.recorder),
             energy_balance: Some(run.energy),
+            events: run.events.summary(self.question.duration),
             steps: run.steps,
             evaluations: run.evaluations,
         };
@@ -119,7 +120,8 @@ impl ShockProblem<'_> {
             comparison_history: None,
         };
         let columns = history_columns(run.recorder);
-        Ok(HistoryResult { header, columns, metrics, shock: Some(shock) })
+        let events = run.events.listed;
+        Ok(HistoryResult { header, columns, metrics, events, shock: Some(shock) })
     }
 
     /// Warns where a shaft passes the limit of its law.
@@ -202,10 +204,16 @@ impl ShockProblem<'_> {
         let mut columns = history_columns(run.recorder);
         let shaft = self.equations.connections[single.connection].name.clone();
         physical_torque(&single, &shaft, &mut columns, &mut channels, &mut shafts);
-        let metrics =
-            HistoryMetrics { shafts, channels, energy_balance: Some(energy), steps, evaluations };
+        let metrics = HistoryMetrics {
+            shafts,
+            channels,
+            energy_balance: Some(energy),
+            steps,
+            evaluations,
+            ..HistoryMetrics::default()
+        };
         let shock = self.details(single::name(equation), &single);
-        Ok(HistoryResult { header, columns, metrics, shock: Some(shock) })
+        Ok(HistoryResult { header, columns, metrics, events: Vec::new(), shock: Some(shock) })
     }
 
     /// A single equation must be disturbed too: a pulse on a held end is none.
@@ -273,12 +281,10 @@ impl ShockProblem<'_> {
         let metrics = HistoryMetrics {
             shafts: [(shaft, closed.metrics(question.duration))].into(),
             channels: column_metrics(&columns),
-            energy_balance: None,
-            steps: 0,
-            evaluations: 0,
+            ..HistoryMetrics::default()
         };
         let shock = self.details(&format!("multiple-scales, order {}", question.order), &single);
-        Ok(HistoryResult { header, columns, metrics, shock: Some(shock) })
+        Ok(HistoryResult { header, columns, metrics, events: Vec::new(), shock: Some(shock) })
     }
 }
 

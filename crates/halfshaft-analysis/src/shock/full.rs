@@ -24,6 +24,7 @@ pub(crate) fn integrate<'l>(
         step: question.step.unwrap_or(question.duration / DEFAULT_PARTS),
         record: (0.0, question.duration),
         follow: true,
+        exact_friction: true,
     };
     run(equations, state, &settings, observer)
 }

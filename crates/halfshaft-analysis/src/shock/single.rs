@@ -209,6 +209,7 @@ fn surrogate(
             damping: shaft.damping,
             damps_in_gap: true,
             friction: None,
+            engagement: None,
         }],
         nodes: vec![NodePlace {
             name: equations.nodes[node].name.clone(),
@@ -225,6 +226,7 @@ fn surrogate(
         },
         rigid: None,
         excitation,
+        meshes: 0,
     }
 }
 

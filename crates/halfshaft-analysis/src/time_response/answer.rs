@@ -2,7 +2,7 @@
 
 use halfshaft_dynamics::{Active, EquationsOfMotion, Motion};
 use halfshaft_model::Driveline;
-use halfshaft_model::question::{Question, SimulateQuestion, Start};
+use halfshaft_model::question::{DryFriction, Question, SimulateQuestion, Start};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
     Column, EnergyBalance, Header, HistoryMetrics, HistoryResult, Named, Reason,
@@ -25,7 +25,8 @@ pub(crate) fn solve(
     observer: &dyn Observer,
 ) -> Result<HistoryResult, AnalysisError> {
     let equations = EquationsOfMotion::new(line)?;
-    let active = Active::all(question.frequency);
+    let active =
+        Active { acceleration: question.acceleration, ..Active::all(question.frequency) };
     let mut motion = Motion::new(&equations, active, true);
     let state = start_state(line, &mut motion, question.start, &question.initial)?;
     let record = question.record.unwrap_or((0.0, question.duration));
@@ -35,7 +36,8 @@ pub(crate) fn solve(
         tolerance: question.tolerance,
         step: question.step.unwrap_or((record.1 - record.0) / DEFAULT_PARTS),
         record,
-        follow: false,
+        follow: question.frequency.is_none(),
+        exact_friction: question.friction == DryFriction::Exact,
     };
     let run = run(&equations, &state, &settings, observer)?;
 
@@ -59,11 +61,20 @@ pub(crate) fn solve(
         shafts: Named::new(),
         channels: channel_metrics(&run.recorder),
         energy_balance: Some(run.energy),
+        events: run.events.summary(question.duration),
         steps: run.steps,
         evaluations: run.evaluations,
     };
-    let Run { recorder, .. } = run;
-    Ok(HistoryResult { header, columns: history_columns(recorder), metrics, shock: None })
+    let Run { recorder, events, .. } = run;
+    if events.count > events.listed.len() {
+        header.warnings.push(format!(
+            "of {} events the first {} are listed; --record keeps a part of the run",
+            events.count,
+            events.listed.len()
+        ));
+    }
+    let (columns, events) = (history_columns(recorder), events.listed);
+    Ok(HistoryResult { header, columns, metrics, events, shock: None })
 }
 
 fn start_sentence(question: &SimulateQuestion) -> String {

@@ -1,5 +1,7 @@
 //! The channels of a time history and how they follow from a state.
 
+use std::sync::Arc;
+
 use halfshaft_dynamics::{EquationsOfMotion, Motion};
 use halfshaft_model::question::ChannelQuantity;
 use halfshaft_numerics::ode::System;
@@ -27,6 +29,7 @@ pub(crate) struct ChannelInfo {
 pub(crate) struct Channels<'l> {
     motion: Motion<'l>,
     pub(crate) list: Vec<ChannelInfo>,
+    scratch: Vec<f64>,
 }
 
 /// Values of all channels at one time, with their rates of change.
@@ -54,7 +57,15 @@ impl<'l> Channels<'l> {
                 list.push(info(&node.name, Owner::Node(index), quantity));
             }
         }
-        Self { motion, list }
+        Self { motion, list, scratch: Vec::new() }
+    }
+
+    /// Takes over the modes and pulses of a motion as they are from time `t` on.
+    pub(crate) fn follow(&mut self, motion: &Motion<'l>, t: f64) {
+        if let Some(modes) = motion.modes() {
+            self.motion.set_modes(Arc::clone(modes));
+        }
+        self.motion.switch_pulses(t);
     }
 
     /// Length of the states that are sampled.
@@ -78,12 +89,25 @@ impl<'l> Channels<'l> {
         // The state's rate of change is a state whose twists are the rates and whose rates
         // are the accelerations.
         let change = self.motion.kinematics(rate).clone();
+        // With modes the torque of a connection is known to the motion alone.
+        let torques = self.motion.modes().is_some().then(|| {
+            self.scratch.resize(state.len(), 0.0);
+            self.motion.derivative(time, state, &mut self.scratch);
+            self.motion.torques().to_vec()
+        });
         let kinematics = self.motion.kinematics(state);
         for channel in &self.list {
             let (value, slope) = match channel.owner {
                 Owner::Connection(index) => {
                     let (x, v) = (kinematics.twists[index], kinematics.rates[index]);
-                    of_connection(equations, index, channel.quantity, x, v, change.rates[index])
+                    let (value, slope) =
+                        of_connection(equations, index, channel.quantity, x, v, change.rates[index]);
+                    match &torques {
+                        Some(torques) if channel.quantity == ChannelQuantity::Torque => {
+                            (torques[index], slope)
+                        }
+                        _ => (value, slope),
+                    }
                 }
                 Owner::Node(index) => {
                     let node = &equations.nodes[index];

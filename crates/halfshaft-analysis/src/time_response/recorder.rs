@@ -3,6 +3,8 @@
 use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::ode::dop853::DenseStep;
 
+use halfshaft_dynamics::Motion;
+
 use super::channels::{Channels, Sample};
 use halfshaft_results::ChannelMetrics;
 
@@ -136,6 +138,11 @@ impl<'l> Recorder<'l> {
         }
         self.measure(&sample);
         self.before = Some(sample);
+    }
+
+    /// Takes over the modes and pulses of a motion as they are from time `t` on.
+    pub(crate) fn follow(&mut self, motion: &Motion<'l>, t: f64) {
+        self.channels.follow(motion, t);
     }
 
     /// Takes one accepted step.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use halfshaft::model::question::{ShockEquation, ShockMethod, Start};
+use halfshaft::model::question::{DryFriction, ShockEquation, ShockMethod, Start};
 use halfshaft::{QuestionText, Verb};
 
 use super::common::Common;
@@ -133,9 +133,16 @@ pub struct Simulate {
     /// A value at time 0: "half-shaft.twist=1 rad", "engine.speed=900 rpm" (repeatable)
     #[arg(long, value_name = "CHANNEL=VALUE")]
     pub initial: Vec<String>,
-    /// Excitation speed Ω, e.g. 4Hz or 240rpm; without it torques that have an order are silent
-    #[arg(long, value_name = "SPEED", allow_hyphen_values = true)]
+    /// Excitation speed Ω, e.g. 4Hz; a run-up 600rpm..3000rpm or a run-down 3000rpm..600rpm moves it over
+    /// the duration; without it torques that have an order are silent
+    #[arg(long, value_name = "SPEED|A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
+    /// Rate of a run-up or run-down in place of its duration, e.g. 50rpm/s
+    #[arg(long, value_name = "RATE", allow_hyphen_values = true)]
+    pub rate: Option<String>,
+    /// Dry friction: exact sticks and slides, smoothed is what harmonic balance takes [default: exact]
+    #[arg(long, value_name = "WAY", value_parser = OneOf(&DryFriction::WORDS))]
+    pub friction: Option<String>,
     /// Time between two rows of the output [default: a two-thousandth of what is recorded]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub step: Option<String>,
@@ -264,6 +271,8 @@ impl Simulate {
             start: self.start.clone(),
             initial: self.initial.clone(),
             frequency: self.frequency.clone(),
+            rate: self.rate.clone(),
+            friction: self.friction.clone(),
             step: self.step.clone(),
             tolerance: self.tolerance.clone(),
             record: self.record.clone(),

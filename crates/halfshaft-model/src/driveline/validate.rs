@@ -6,7 +6,7 @@ use super::Driveline;
 use super::connection::check_connection;
 use super::places::Places;
 use crate::diagnostic::{Diagnostic, Diagnostics, with_article};
-use crate::elements::MeanTorque;
+use crate::elements::{MeanTorque, TorqueTable};
 
 /// Adds every finding about the line as a whole to `found`.
 ///
@@ -119,14 +119,21 @@ fn check_torques(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics)
                 balancing = Some(index);
             }
         }
+        if let Some((message, hint)) = torque.table.as_ref().and_then(TorqueTable::fault)
+            && places.is_sound("torque", index)
+        {
+            let place = places.key("torque", index, "table");
+            found.push(Diagnostic::error(place, message).hint(hint));
+        }
         let silent = torque.mean == MeanTorque::Value(0.0)
             && torque.harmonics.iter().all(|h| h.amplitude_nm == 0.0)
-            && torque.pulse.is_none();
+            && torque.pulse.is_none()
+            && torque.table.is_none();
         if silent && places.is_sound("torque", index) {
             let message = format!("torque \"{}\" does nothing", torque.name);
             found.push(
                 Diagnostic::warning(places.key("torque", index, "name"), message)
-                    .hint("give it a mean, an amplitude or a pulse"),
+                    .hint("give it a mean, an amplitude, a pulse or a table"),
             );
         }
     }

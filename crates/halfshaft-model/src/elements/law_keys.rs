@@ -27,6 +27,12 @@ pub(crate) fn check_shaft(shaft: &CheckedTable, found: &mut Diagnostics) {
     if !shaft.mentions("clearance") && !shaft.mentions("contact") {
         no_free_play(shaft, "clearance or contact", found);
     }
+    if shaft.mentions("engagement") && !shaft.mentions("friction") {
+        found.push(
+            Diagnostic::error(shaft.span_of("engagement"), "engagement needs a friction")
+                .hint("add friction = \"... N·m\", what the engaged clutch can bear"),
+        );
+    }
     if shaft.mentions("friction_speed") && !shaft.mentions("friction") {
         found.push(
             Diagnostic::warning(

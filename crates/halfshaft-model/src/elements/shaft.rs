@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::engagement::{ENGAGEMENT, Engagement};
 use super::measured::{MEASURED, MeasuredLaw};
 use super::stage::{STAGE, Stage};
 use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
@@ -67,6 +68,9 @@ pub struct Shaft {
     /// Speed within which the friction is smoothed, rad/s.
     #[serde(skip_serializing_if = "is_default_speed")]
     pub friction_speed_rad_s: f64,
+    /// When the friction comes to bear, for motions in time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub engagement: Option<Engagement>,
 }
 
 // The digest of a line is made from what is serialised; a key at its default must not change it.
@@ -200,7 +204,12 @@ pub static SHAFT: TableSpec = TableSpec {
             QuantityKind::Speed,
             Sign::Positive,
             "Speed within which the friction is smoothed: a shaft that sticks creeps with less than \
-             about this. Default 0.01 rad/s.",
+             about this. Default 0.01 rad/s. `simulate` and `shock` let it stick exactly and need none.",
+        ),
+        KeySpec::new(
+            "engagement",
+            ValueSpec::Table(&ENGAGEMENT),
+            "A clutch that engages: how the friction comes to bear over time. Optional.",
         ),
         planned("length", "Length."),
         planned("outer_diameter", "Outer diameter."),
@@ -240,6 +249,7 @@ impl Shaft {
             table: table.table("table").map(MeasuredLaw::read),
             friction_nm: table.number_or("friction", 0.0),
             friction_speed_rad_s: table.number_or("friction_speed", FRICTION_SPEED_RAD_S),
+            engagement: table.table("engagement").map(Engagement::read),
         }
     }
 
@@ -299,6 +309,9 @@ impl Shaft {
     /// The numeric value behind `stages.1.until`, `table.torque.1` and the like.
     fn nested_parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
         let (list, rest) = key.split_once('.')?;
+        if list == "engagement" {
+            return self.engagement.as_mut()?.parameter_mut(rest);
+        }
         let stages = match list {
             "table" => return self.table.as_mut()?.parameter_mut(rest),
             "stages" => &mut self.stages,

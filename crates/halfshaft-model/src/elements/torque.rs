@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::pulse::{PULSE, Pulse};
+use super::torque_table::{TORQUE_TABLE, TorqueTable};
 use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
 
@@ -29,7 +30,7 @@ pub struct Harmonic {
 }
 
 /// An external torque, positive in the direction of positive angle:
-/// `mean + Σ amplitude · cos(order Ω t + phase) + pulse(t)`, the amplitudes times
+/// `mean + Σ amplitude · cos(order Ω t + phase) + pulse(t) + table(t)`, the amplitudes times
 /// `(Ω / reference speed)^power` where they grow with the speed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Torque {
@@ -45,6 +46,9 @@ pub struct Torque {
     pub frequency_rad_s: Option<f64>,
     /// A part that acts once.
     pub pulse: Option<Pulse>,
+    /// Torque over time by points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table: Option<TorqueTable>,
     /// Power of the speed with which all harmonics grow; `None` where they do not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_power: Option<f64>,
@@ -83,7 +87,7 @@ pub static HARMONIC: TableSpec = TableSpec {
 pub static TORQUE: TableSpec = TableSpec {
     name: "torque",
     doc: "An external torque on a node, positive in the direction of positive angle: \
-          mean + Σ amplitude · cos(order · Ω t + phase) + pulse(t); with a speed_power every amplitude \
+          mean + Σ amplitude · cos(order · Ω t + phase) + pulse(t) + table(t); with a speed_power every amplitude \
           times (Ω / reference_speed)^speed_power.",
     keys: &[
         KeySpec::new("name", ValueSpec::Text, "Name of the element.").required(),
@@ -114,6 +118,11 @@ pub static TORQUE: TableSpec = TableSpec {
             "Ω at which the harmonics have the stated amplitudes; goes with speed_power.",
         ),
         KeySpec::new("pulse", ValueSpec::Table(&PULSE), "A part that acts once."),
+        KeySpec::new(
+            "table",
+            ValueSpec::TableOrText(&TORQUE_TABLE),
+            "A part given over time: points, or the path of a CSV file.",
+        ),
     ],
 };
 
@@ -156,6 +165,7 @@ impl Torque {
             harmonics,
             frequency_rad_s: table.number("frequency"),
             pulse: table.table("pulse").map(Pulse::read),
+            table: table.table("table").map(TorqueTable::read),
             speed_power: table.number("speed_power"),
             reference_speed_rad_s: table.number("reference_speed"),
         }
@@ -166,6 +176,9 @@ impl Torque {
     pub fn parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
         if let Some(key) = key.strip_prefix("pulse.") {
             return self.pulse.as_mut()?.parameter_mut(key);
+        }
+        if let Some(key) = key.strip_prefix("table.") {
+            return self.table.as_mut()?.parameter_mut(key);
         }
         match key {
             "mean" => {

@@ -1,4 +1,4 @@
-//! A measured law in a file of its own: two columns, twist and torque.
+//! Points in a file of their own: two columns, twist and torque of a measured law or time and torque.
 //!
 //! Cells are separated by commas, semicolons, tabs or blanks; `#` begins a comment. A first line that
 //! is no number is the header: `twist [deg], torque [N·m]`, in either order; without units (or
@@ -18,29 +18,41 @@ const MOST_TOLD: usize = 5;
 /// A column of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Column {
-    /// 0 for twist, 1 for torque.
+    /// 0 for twist or time, 1 for torque.
     quantity: usize,
     /// SI units in one unit of the column.
     factor: f64,
 }
 
-const NAMES: [(&str, QuantityKind); 2] =
+/// Names of the two columns with what they mean.
+type Names = [(&'static str, QuantityKind); 2];
+
+/// A measured law.
+pub(super) const OVER_TWIST: Names =
     [("twist", QuantityKind::Angle), ("torque", QuantityKind::Torque)];
+/// A torque over time.
+pub(super) const OVER_TIME: Names =
+    [("time", QuantityKind::Time), ("torque", QuantityKind::Torque)];
 
 /// Puts the points of a file into the place of the path that stands in `table = "..."`; a file that
 /// cannot be used is told, and the key is then unsound.
-pub(super) fn resolve(shaft: &mut CheckedTable, model: &Path, found: &mut Diagnostics) {
-    let Some(Entry { span, value: Checked::Text(path) }) = shaft.entry("table").cloned() else {
+pub(super) fn resolve(
+    element: &mut CheckedTable,
+    names: &Names,
+    model: &Path,
+    found: &mut Diagnostics,
+) {
+    let Some(Entry { span, value: Checked::Text(path) }) = element.entry("table").cloned() else {
         return;
     };
-    match read_points(&path, model, &span, found) {
-        Some(points) => shaft.replace("table", Checked::Table(points)),
-        None => shaft.spoil("table"),
+    match read_points((&path, names), model, &span, found) {
+        Some(points) => element.replace("table", Checked::Table(points)),
+        None => element.spoil("table"),
     }
 }
 
 fn read_points(
-    path: &str,
+    (path, names): (&str, &Names),
     model: &Path,
     span: &Range<usize>,
     found: &mut Diagnostics,
@@ -63,16 +75,16 @@ fn read_points(
         }
     };
     let number = found.sources.len();
-    let (columns, mistakes) = parse(&source);
+    let (columns, mistakes) = parse(&source, names);
     found.sources.push(source);
     let sound = mistakes.is_empty();
     found.items.extend(mistakes.into_iter().take(MOST_TOLD).map(|item| item.in_source(number)));
     if sound { Some(CheckedTable::of_numbers(span.clone(), columns)) } else { None }
 }
 
-/// The columns twist and torque in SI, and what is wrong.
-fn parse(source: &Source) -> ([(&'static str, Vec<f64>); 2], Vec<Diagnostic>) {
-    let mut values = NAMES.map(|(name, _)| (name, Vec::new()));
+/// The two columns in SI, and what is wrong.
+fn parse(source: &Source, names: &Names) -> ([(&'static str, Vec<f64>); 2], Vec<Diagnostic>) {
+    let mut values = names.map(|(name, _)| (name, Vec::new()));
     let mut mistakes = Vec::new();
     let mut columns: Option<[Column; 2]> = None;
     let mut start = 0;
@@ -84,7 +96,7 @@ fn parse(source: &Source) -> ([(&'static str, Vec<f64>); 2], Vec<Diagnostic>) {
         }
         let is_header = columns.is_none() && cells.iter().all(|(_, cell)| !begins_number(cell));
         if is_header {
-            match header(&cells) {
+            match header(&cells, names) {
                 Ok(read) => columns = Some(read),
                 Err(mistake) => return (values, vec![mistake]),
             }
@@ -134,23 +146,25 @@ fn begins_number(cell: &str) -> bool {
 }
 
 /// Columns from a header such as `twist [deg]`, `torque (N·m)`.
-fn header(cells: &[(Range<usize>, &str)]) -> Result<[Column; 2], Diagnostic> {
+fn header(cells: &[(Range<usize>, &str)], names: &Names) -> Result<[Column; 2], Diagnostic> {
     let wrong = |place: &Range<usize>, message: String| {
-        Diagnostic::error(place.clone(), message).hint("e.g. twist [deg], torque [N·m]")
+        let [(first, kind), (second, _)] = names;
+        let unit = if *kind == QuantityKind::Time { "ms" } else { "deg" };
+        Diagnostic::error(place.clone(), message).hint(format!("e.g. {first} [{unit}], {second} [N·m]"))
     };
     let whole = cells[0].0.start..cells[cells.len() - 1].0.end;
     let [first, second] = cells else {
-        return Err(wrong(&whole, format!("{} columns, not twist and torque", cells.len())));
+        return Err(wrong(&whole, format!("{} columns, not {} and {}", cells.len(), names[0].0, names[1].0)));
     };
     let column = |(place, text): &(Range<usize>, &str)| {
         let text = text.trim_matches('"');
         let (name, unit) = text.split_once(['[', '(']).unwrap_or((text, ""));
         let name = name.trim().to_lowercase();
-        let Some(quantity) = NAMES.iter().position(|(known, _)| *known == name) else {
-            return Err(wrong(place, format!("\"{text}\" is neither twist nor torque")));
+        let Some(quantity) = names.iter().position(|(known, _)| *known == name) else {
+            return Err(wrong(place, format!("\"{text}\" is neither {} nor {}", names[0].0, names[1].0)));
         };
         let unit = unit.trim_end_matches([']', ')']).trim();
-        let kind = NAMES[quantity].1;
+        let kind = names[quantity].1;
         let unit = if unit.is_empty() { kind.si_unit() } else { unit };
         match parse_quantity(&format!("1 {unit}"), kind) {
             Ok(factor) => Ok(Column { quantity, factor }),
@@ -172,7 +186,7 @@ fn row(cells: &[(Range<usize>, &str)]) -> Result<[f64; 2], Diagnostic> {
     let [first, second] = cells else {
         let whole = cells[0].0.start..cells[cells.len() - 1].0.end;
         let message = format!("a point has two numbers, not {}", cells.len());
-        let hint = "write twist, torque; decimals have a point";
+        let hint = "write two numbers a line; decimals have a point";
         return Err(Diagnostic::error(whole, message).hint(hint));
     };
     let number = |(place, text): &(Range<usize>, &str)| {
@@ -185,7 +199,7 @@ fn row(cells: &[(Range<usize>, &str)]) -> Result<[f64; 2], Diagnostic> {
                 Ok(_) if plain.contains(',') => {
                     diagnostic.hint(format!("decimals are written with a point: {decimal}"))
                 }
-                _ => diagnostic.hint("units stand in the header: twist [deg], torque [N·m]"),
+                _ => diagnostic.hint("units stand in the header, e.g. torque [N·m]"),
             }
         })
     };
@@ -197,7 +211,7 @@ mod tests {
     use super::*;
 
     fn points(text: &str) -> [Vec<f64>; 2] {
-        let (values, mistakes) = parse(&Source::new("law.csv", text));
+        let (values, mistakes) = parse(&Source::new("law.csv", text), &OVER_TWIST);
         assert!(mistakes.is_empty(), "{mistakes:?}");
         values.map(|(_, numbers)| numbers)
     }
@@ -226,7 +240,7 @@ mod tests {
     fn mistakes_have_their_place() {
         let told = |text: &str| {
             let source = Source::new("law.csv", text);
-            let (_, mistakes) = parse(&source);
+            let (_, mistakes) = parse(&source, &OVER_TWIST);
             let first = mistakes.first().expect("is wrong").clone();
             (source.excerpt(&first.span).to_owned(), first.message, first.hint.unwrap_or_default())
         };

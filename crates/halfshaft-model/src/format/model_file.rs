@@ -67,7 +67,10 @@ pub fn read_model(
     };
     let path = PathBuf::from(&found.sources[0].name);
     for shaft in document.tables_mut("shaft") {
-        measured_file::resolve(shaft, &path, &mut found);
+        measured_file::resolve(shaft, &measured_file::OVER_TWIST, &path, &mut found);
+    }
+    for torque in document.tables_mut("torque") {
+        measured_file::resolve(torque, &measured_file::OVER_TIME, &path, &mut found);
     }
     check_keys(&document, &mut found);
     let (mut line, places) = build(&document);

@@ -111,6 +111,35 @@ impl Start {
     pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
 }
 
+/// How a motion in time takes dry friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DryFriction {
+    /// It sticks, breaks away and slides.
+    #[default]
+    Exact,
+    /// Smoothed by the friction speed, as in harmonic balance.
+    Smoothed,
+}
+
+impl DryFriction {
+    /// All ways with their names.
+    pub const ALL: [(&'static str, Self); 2] =
+        [("exact", Self::Exact), ("smoothed", Self::Smoothed)];
+    /// The names alone.
+    pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
+}
+
+// What a question leaves at its default is not among the settings that answers list.
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
+fn is_exact(friction: &DryFriction) -> bool {
+    *friction == DryFriction::Exact
+}
+
 /// Settings of `simulate`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SimulateQuestion {
@@ -120,8 +149,14 @@ pub struct SimulateQuestion {
     pub start: Start,
     /// Values that differ from `start` at time 0.
     pub initial: Vec<InitialValue>,
-    /// Excitation speed Ω, rad/s; without it torques of an order are silent.
+    /// Excitation speed Ω, rad/s; without it torques of an order are silent. At the start, where it moves.
     pub frequency: Option<f64>,
+    /// Rate at which Ω moves, rad/s²: a run-up, or a run-down below zero.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub acceleration: f64,
+    /// Whether dry friction sticks and slides exactly, or is smoothed.
+    #[serde(skip_serializing_if = "is_exact")]
+    pub friction: DryFriction,
     /// Output step, s; `None` for a two-thousandth of what is recorded.
     pub step: Option<f64>,
     /// Relative tolerance of the integration.
@@ -137,6 +172,8 @@ impl Default for SimulateQuestion {
             start: Start::Rest,
             initial: Vec::new(),
             frequency: None,
+            acceleration: 0.0,
+            friction: DryFriction::Exact,
             step: None,
             tolerance: 1e-10,
             record: None,

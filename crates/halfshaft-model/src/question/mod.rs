@@ -16,7 +16,7 @@ pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
     BasinsQuestion, DEFAULT_POINTS, FoldsQuestion, ModesQuestion, ParameterRange, Question,
     ResonanceMethod, ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion,
-    SimulateQuestion, StabilityMethod, Start, Verb,
+    DryFriction, SimulateQuestion, StabilityMethod, Start, Verb,
 };
 pub use read::read;
 pub use text::{OptionError, QuestionText};

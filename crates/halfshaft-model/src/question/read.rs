@@ -1,11 +1,12 @@
 //! From the words of a question to the question.
 
 use super::kinds::{
-    ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Verb,
+    DryFriction, ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Verb,
 };
 use super::text::{OptionError, QuestionText};
 use super::values::Reader;
 use crate::driveline::Driveline;
+use crate::range::{RangeError, parse_range};
 use crate::units::{QuantityKind, Sign};
 
 /// Reads a question about `line`.
@@ -36,27 +37,76 @@ pub fn read(
     if reader.errors.is_empty() { Ok(question) } else { Err(reader.errors) }
 }
 
+/// Excitation speeds at the start and at the end, rad/s, with the duration where a rate gives it.
+#[derive(Clone, Copy)]
+struct Run {
+    from: f64,
+    to: f64,
+    duration: Option<f64>,
+}
+
 impl Reader<'_> {
     fn simulate(&mut self) -> SimulateQuestion {
         let default = SimulateQuestion::default();
         let text = self.text;
-        let duration = self.duration(default.duration);
+        let run = self.run_of_speeds();
+        let duration = match run {
+            Some(Run { duration: Some(duration), .. }) => Some(duration),
+            _ => self.duration(default.duration),
+        };
         let record = self.record(duration);
         let recorded = record.map(|(from, to)| to - from).or(duration);
         SimulateQuestion {
             duration: duration.unwrap_or(default.duration),
             start: self.start(),
             initial: self.initial(),
-            frequency: self.quantity(
-                "frequency",
-                text.frequency.as_deref(),
-                QuantityKind::Speed,
-                Sign::Positive,
-            ),
+            frequency: run.map(|run| run.from),
+            acceleration: match (run, duration) {
+                (Some(run), Some(duration)) => (run.to - run.from) / duration,
+                _ => 0.0,
+            },
+            friction: self
+                .choice("friction", text.friction.as_deref(), &DryFriction::ALL)
+                .unwrap_or_default(),
             step: self.step(recorded),
             tolerance: self.tolerance(default.tolerance),
             record,
         }
+    }
+
+    /// `--frequency` of `simulate`, one speed or two, with `--rate`.
+    fn run_of_speeds(&mut self) -> Option<Run> {
+        let rate = self.quantity(
+            "rate",
+            self.text.rate.as_deref(),
+            QuantityKind::Acceleration,
+            Sign::Positive,
+        );
+        let text = self.text.frequency.as_deref();
+        let Some(written) = text.filter(|written| written.contains("..")) else {
+            let hint = "write --frequency A..B, or leave the rate out";
+            self.refuse("rate", self.text.rate.as_deref(), "only a run of speeds has a rate", hint);
+            let speed = self.quantity("frequency", text, QuantityKind::Speed, Sign::Positive)?;
+            return Some(Run { from: speed, to: speed, duration: None });
+        };
+        let (from, to) = match parse_range(written, QuantityKind::Speed) {
+            // A run-down.
+            Err(RangeError::Reversed { meant, .. }) => {
+                self.range("frequency", Some(&meant), QuantityKind::Speed).map(|(a, b)| (b, a))?
+            }
+            _ => self.range("frequency", text, QuantityKind::Speed)?,
+        };
+        if from.min(to) < 0.0 {
+            let message = "excitation speeds begin at zero";
+            self.errors.push(OptionError::new("frequency", written, message, ""));
+        }
+        if rate.is_some() {
+            let hint = "leave one of them out: a run of speeds takes as long as its rate says";
+            let message = "a run with a rate has its duration";
+            self.refuse("duration", self.text.duration.as_deref(), message, hint);
+        }
+        let duration = rate.map(|rate| (to - from).abs() / rate);
+        Some(Run { from, to, duration })
     }
 
     fn shock(&mut self) -> ShockQuestion {

@@ -9,7 +9,7 @@ pub struct QuestionText {
     pub initial: Vec<String>,
     /// `--start`.
     pub start: Option<String>,
-    /// `--frequency`: one speed for `simulate`, `basins` and beside a `--parameter` of `resonance`, a range for
+    /// `--frequency`: one speed or a run from one to another for `simulate`, one for `basins` and beside a `--parameter` of `resonance`, a range for
     /// the others.
     pub frequency: Option<String>,
     /// `--step`.
@@ -52,6 +52,10 @@ pub struct QuestionText {
     pub shaft: Option<String>,
     /// `--periods`.
     pub periods: Option<String>,
+    /// `--rate`.
+    pub rate: Option<String>,
+    /// `--friction`.
+    pub friction: Option<String>,
 }
 
 /// What is wrong with one option.

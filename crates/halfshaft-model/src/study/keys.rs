@@ -40,6 +40,8 @@ pub static QUESTION: TableSpec = TableSpec {
         option("window", "As --window."),
         option("shaft", "As --shaft."),
         option("periods", "As --periods."),
+        option("rate", "As --rate."),
+        option("friction", "As --friction."),
         KeySpec::new("backbone", ValueSpec::Flag, "As --backbone."),
         KeySpec::new("printed-velocity", ValueSpec::Flag, "As --printed-velocity."),
         KeySpec::new("verify", ValueSpec::Flag, "As --verify."),

@@ -344,6 +344,8 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         window: option("window"),
         shaft: option("shaft"),
         periods: option("periods"),
+        rate: option("rate"),
+        friction: option("friction"),
     }
 }
 

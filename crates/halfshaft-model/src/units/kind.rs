@@ -17,6 +17,8 @@ pub enum QuantityKind {
     Angle,
     /// Angular speed, rad/s; Hz and rpm count revolutions.
     Speed,
+    /// Rate at which an angular speed moves, rad/s².
+    Acceleration,
     /// Time, s.
     Time,
     /// Angular impulse, N·m·s.
@@ -84,6 +86,7 @@ impl QuantityKind {
             Self::Torque => Dimension::TORQUE,
             Self::Angle => Dimension::ANGLE,
             Self::Speed => Dimension::SPEED,
+            Self::Acceleration => Dimension::SPEED - Dimension::TIME,
             Self::Time => Dimension::TIME,
             Self::Impulse => Dimension::new(2, 1, -1, 0),
             Self::Number => Dimension::NONE,
@@ -104,6 +107,7 @@ impl QuantityKind {
             Self::Torque => "N·m",
             Self::Angle => "rad",
             Self::Speed => "rad/s",
+            Self::Acceleration => "rad/s²",
             Self::Time => "s",
             Self::Impulse => "N·m·s",
             Self::Number => "1",
@@ -120,6 +124,7 @@ impl QuantityKind {
             Self::Torque => "a torque",
             Self::Angle => "an angle",
             Self::Speed => "an angular speed",
+            Self::Acceleration => "a rate of speed",
             Self::Time => "a time",
             Self::Impulse => "an angular impulse",
             Self::Number => "a pure number",
@@ -139,6 +144,7 @@ impl QuantityKind {
             Self::Torque => &["N·m", "kN·m", "lbf·ft"],
             Self::Angle => &["rad", "deg", "rev"],
             Self::Speed => &["rad/s", "rpm", "Hz"],
+            Self::Acceleration => &["rad/s²", "rpm/s", "Hz/s"],
             Self::Time => &["s", "ms", "min", "h"],
             Self::Impulse => &["N·m·s"],
             Self::Number => &["no unit"],

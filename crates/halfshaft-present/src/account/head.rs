@@ -34,6 +34,7 @@ pub(crate) fn early_end(termination: &Termination) -> Option<String> {
         Reason::StepTooSmall => "the steps of the integrator became too small to go on",
         Reason::NonFinite => "a value left the numbers: the motion runs away",
         Reason::Unanswered => "some questions have no full answer",
+        Reason::Chattering => "a connection chatters",
         Reason::RunsAway => "a shaft gave way",
     };
     let detail = termination.detail.as_deref().map(plain).unwrap_or_default();

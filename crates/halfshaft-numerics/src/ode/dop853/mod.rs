@@ -175,6 +175,26 @@ impl<S: System> Dop853<S> {
         }
     }
 
+    /// Takes the last accepted step again from its beginning, but only to `end` inside it, as one step of
+    /// full order.
+    ///
+    /// # Errors
+    ///
+    /// [`Stop::NonFinite`] where that is not finite.
+    pub fn retake(&mut self, end: f64) -> Result<(), Stop> {
+        let start = self.span.start;
+        self.state.copy_from_slice(&self.previous);
+        self.time = start;
+        self.evaluate_rate();
+        let span = Span { start, length: end - start };
+        self.attempt(span);
+        if !self.accepts(span, end, true) {
+            return Err(self.stopped(Stop::NonFinite { time: start }));
+        }
+        self.statistics.accepted -= 1;
+        Ok(())
+    }
+
     /// Continues from another time and state, as after a discontinuity: the derivative is evaluated
     /// anew, and the step length guessed anew at the next step.
     ///
