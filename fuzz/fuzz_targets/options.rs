@@ -46,6 +46,7 @@ fuzz_target!(|text: &str| {
         periods: same(),
         rate: same(),
         friction: same(),
+        orders: same(),
         ..QuestionText::default()
     };
     for (_, verb) in Verb::ALL {

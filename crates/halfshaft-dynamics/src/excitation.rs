@@ -178,8 +178,11 @@ impl Excitation {
         orders
     }
 
-    /// Whether a pulse leaves a torque behind.
+    /// Whether a pulse or a table leaves a torque behind.
     pub fn has_ramp(&self) -> bool {
+        if self.sources.iter().any(|source| source.table.is_some()) {
+            return true;
+        }
         let pulses = self.sources.iter().filter_map(|source| source.pulse.as_ref());
         pulses.into_iter().any(|pulse| pulse.shape == PulseShape::Ramp)
     }

@@ -397,7 +397,8 @@ impl System for Motion<'_> {
             let Kinematics { speeds, twists, rates, .. } = &self.kinematics;
             rate[2 * n] = self.external.iter().zip(speeds).map(|(q, v)| q * v).sum();
             let shafts = self.equations.connections.iter().zip(twists).zip(rates).enumerate();
-            let resistance = |index: usize, c: &crate::Connection, x: f64, v: f64| match &self.modes {
+            let resistance = |index: usize, c: &crate::Connection, x: f64, v: f64| match &self.modes
+            {
                 None => c.resistance(x, v),
                 Some(modes) => {
                     let damps = modes.list[index].damps;

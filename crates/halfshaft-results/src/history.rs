@@ -67,6 +67,12 @@ pub struct ShaftMetrics {
     pub static_torque: f64,
     /// Peak torque over static torque; `None` where the shaft was unloaded.
     pub dynamic_factor: Option<f64>,
+    /// Torque when all has settled, N·m; `None` where nothing settles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub final_torque: Option<f64>,
+    /// First peak beyond the final twist over the way to that, from the twist before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overshoot: Option<f64>,
     /// When the twist stays within 5 % of its largest peak for good, s; `None` where it does
     /// not settle in the time simulated.
     pub settling_time: Option<f64>,
@@ -77,6 +83,59 @@ pub struct ShaftMetrics {
     pub decay_rate: Option<f64>,
     /// Decay rate over frequency of oscillation, as a damping ratio.
     pub damping_ratio: Option<f64>,
+}
+
+/// How unevenly and how roughly a node turns over the recorded time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct NodeMetrics {
+    /// Largest less smallest speed over the magnitude of the mean; `None` about standstill.
+    pub speed_irregularity: Option<f64>,
+    /// Acceleration of largest magnitude, with its sign, rad/s².
+    #[serde(deserialize_with = "crate::number::read")]
+    pub peak_acceleration: f64,
+    /// When, s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub peak_acceleration_time: f64,
+    /// Rate of acceleration of largest magnitude where that moves without a jump, rad/s³: its mean over a
+    /// sixth of a step of the integration.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub peak_jerk: f64,
+    /// When, s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub peak_jerk_time: f64,
+}
+
+/// Amplitudes of one channel over orders and excitation speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OrderMap {
+    /// The channel.
+    pub channel: String,
+    /// Unit of the amplitudes.
+    pub unit: String,
+    /// Revolutions of a block, under Hann's window; half of them are shared with the next block.
+    pub revolutions: usize,
+    /// Excitation speed in the middle of each block, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub frequency: Vec<f64>,
+    /// Orders, cycles per revolution of the excitation.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub order: Vec<f64>,
+    /// Amplitudes, a row a speed.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub amplitude: Vec<Vec<f64>>,
+    /// Orders worth a curve of their own: excited ones and the strongest others.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub cuts: Vec<f64>,
+}
+
+impl OrderMap {
+    /// Amplitudes over the speed at the order nearest to the given one.
+    pub fn cut(&self, order: f64) -> Vec<f64> {
+        let away = |at: &usize| (self.order[*at] - order).abs();
+        let nearest = (0..self.order.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+        let of = |row: &Vec<f64>| nearest.and_then(|at| row.get(at)).copied().unwrap_or(f64::NAN);
+        self.amplitude.iter().map(of).collect()
+    }
 }
 
 /// A contact, a stage, a stick or a slip.
@@ -143,6 +202,9 @@ pub struct HistoryMetrics {
     pub channels: Named<ChannelMetrics>,
     /// Energy balance of the whole run, where the method is an integration.
     pub energy_balance: Option<EnergyBalance>,
+    /// How unevenly and roughly each node turns.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub nodes: Named<NodeMetrics>,
     /// What happened at each connection with free play, stages or dry friction.
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub events: Named<ConnectionEvents>,
@@ -217,6 +279,13 @@ pub struct HistoryResult {
     /// Contacts, stages, stick and slip in order of time, up to ten thousand.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<HistoryEvent>,
+    /// Spectra over the orders of the excitation, where a speed was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orders: Option<OrderMap>,
+    /// State whenever a revolution of the excitation begins: `time`, then twist and rate of each
+    /// connection.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub section: Option<Table>,
     /// What `shock` says beyond its history.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shock: Option<ShockDetails>,

@@ -190,6 +190,8 @@ pub(crate) fn after_ramps(equations: &EquationsOfMotion) -> Option<EquationsOfMo
     let mut after = equations.clone();
     for source in &mut after.excitation.sources {
         source.mean += source.pulse.as_ref().map_or(0.0, Pulse::final_torque);
+        let table = source.table.as_ref().and_then(|table| table.torque_nm.last());
+        source.mean += table.copied().unwrap_or(0.0);
     }
     Some(after)
 }

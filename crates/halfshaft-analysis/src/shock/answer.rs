@@ -106,6 +106,7 @@ impl ShockProblem<'_> {
             shafts: shaft_metrics(&self.equations, &run, &rest, &self.rest.torques),
             channels: channel_metrics(&run.recorder),
             energy_balance: Some(run.energy),
+            nodes: run.recorder.nodes(),
             events: run.events.summary(self.question.duration),
             steps: run.steps,
             evaluations: run.evaluations,
@@ -121,7 +122,15 @@ impl ShockProblem<'_> {
         };
         let columns = history_columns(run.recorder);
         let events = run.events.listed;
-        Ok(HistoryResult { header, columns, metrics, events, shock: Some(shock) })
+        Ok(HistoryResult {
+            header,
+            columns,
+            metrics,
+            events,
+            orders: None,
+            section: None,
+            shock: Some(shock),
+        })
     }
 
     /// Warns where a shaft passes the limit of its law.
@@ -213,7 +222,15 @@ impl ShockProblem<'_> {
             ..HistoryMetrics::default()
         };
         let shock = self.details(single::name(equation), &single);
-        Ok(HistoryResult { header, columns, metrics, events: Vec::new(), shock: Some(shock) })
+        Ok(HistoryResult {
+            header,
+            columns,
+            metrics,
+            events: Vec::new(),
+            orders: None,
+            section: None,
+            shock: Some(shock),
+        })
     }
 
     /// A single equation must be disturbed too: a pulse on a held end is none.
@@ -284,7 +301,15 @@ impl ShockProblem<'_> {
             ..HistoryMetrics::default()
         };
         let shock = self.details(&format!("multiple-scales, order {}", question.order), &single);
-        Ok(HistoryResult { header, columns, metrics, events: Vec::new(), shock: Some(shock) })
+        Ok(HistoryResult {
+            header,
+            columns,
+            metrics,
+            events: Vec::new(),
+            orders: None,
+            section: None,
+            shock: Some(shock),
+        })
     }
 }
 

@@ -25,6 +25,7 @@ pub(crate) fn integrate<'l>(
         record: (0.0, question.duration),
         follow: true,
         exact_friction: true,
+        orders: None,
     };
     run(equations, state, &settings, observer)
 }

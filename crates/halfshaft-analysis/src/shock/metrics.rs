@@ -48,6 +48,8 @@ pub(crate) fn metrics(response: &Response<'_>) -> ShaftMetrics {
         static_torque: response.static_torque,
         dynamic_factor: loaded.then(|| response.peak_torque.value / response.static_torque),
         settling_time: settling_time(response),
+        final_torque: None,
+        overshoot: None,
         oscillation_frequency,
         decay_rate,
         damping_ratio,

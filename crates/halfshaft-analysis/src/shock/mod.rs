@@ -16,3 +16,4 @@ mod multiple_scales;
 mod single;
 
 pub(crate) use answer::solve;
+pub(crate) use full::shaft_metrics;

@@ -5,15 +5,17 @@ use halfshaft_model::Driveline;
 use halfshaft_model::question::{DryFriction, Question, SimulateQuestion, Start};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{
-    Column, EnergyBalance, Header, HistoryMetrics, HistoryResult, Named, Reason,
+    Column, EnergyBalance, Header, HistoryMetrics, HistoryResult, Named, OrderMap, Reason,
+    ShaftMetrics, Table,
 };
 
 use super::initial::start_state;
 use super::recorder::Recorder;
 use super::run::{Run, RunSettings, run};
-use crate::equilibrium;
+use crate::equilibrium::{self, RestStates};
 use crate::error::AnalysisError;
 use crate::header::header;
+use crate::shock::shaft_metrics;
 
 /// Parts of the recorded time that a history has by default.
 pub(crate) const DEFAULT_PARTS: f64 = 2000.0;
@@ -25,8 +27,7 @@ pub(crate) fn solve(
     observer: &dyn Observer,
 ) -> Result<HistoryResult, AnalysisError> {
     let equations = EquationsOfMotion::new(line)?;
-    let active =
-        Active { acceleration: question.acceleration, ..Active::all(question.frequency) };
+    let active = Active { acceleration: question.acceleration, ..Active::all(question.frequency) };
     let mut motion = Motion::new(&equations, active, true);
     let state = start_state(line, &mut motion, question.start, &question.initial)?;
     let record = question.record.unwrap_or((0.0, question.duration));
@@ -37,6 +38,7 @@ pub(crate) fn solve(
         step: question.step.unwrap_or((record.1 - record.0) / DEFAULT_PARTS),
         record,
         follow: question.frequency.is_none(),
+        orders: question.orders.clone(),
         exact_friction: question.friction == DryFriction::Exact,
     };
     let run = run(&equations, &state, &settings, observer)?;
@@ -58,7 +60,8 @@ pub(crate) fn solve(
     }
     energy_warning(&mut header, &run.energy, question.tolerance);
     let metrics = HistoryMetrics {
-        shafts: Named::new(),
+        shafts: transient_metrics(&equations, question, &state, &states, &run),
+        nodes: run.recorder.nodes(),
         channels: channel_metrics(&run.recorder),
         energy_balance: Some(run.energy),
         events: run.events.summary(question.duration),
@@ -73,8 +76,60 @@ pub(crate) fn solve(
             events.listed.len()
         ));
     }
+    let (orders, section) = (order_map(&equations, &recorder), section(&recorder));
     let (columns, events) = (history_columns(recorder), events.listed);
-    Ok(HistoryResult { header, columns, metrics, events, shock: None })
+    Ok(HistoryResult { header, columns, metrics, events, orders, section, shock: None })
+}
+
+/// How the shafts take a transient: against the state at time zero and that in which all settles. Nothing
+/// settles under a lasting excitation.
+fn transient_metrics(
+    equations: &EquationsOfMotion,
+    question: &SimulateQuestion,
+    state: &[f64],
+    states: &RestStates,
+    run: &Run<'_>,
+) -> Named<ShaftMetrics> {
+    let own = |source: &halfshaft_dynamics::Source| {
+        source.own_frequency.is_some() && !source.harmonics.is_empty()
+    };
+    let lasting = question.frequency.is_some() || equations.excitation.sources.iter().any(own);
+    let settled = equilibrium::after_ramps(equations);
+    let settled = settled.and_then(|after| equilibrium::find_stable(&after).ok());
+    let settled = settled.as_ref().unwrap_or(states).primary();
+    let (false, Some(settled)) = (lasting, settled) else { return Named::new() };
+    let mut motion = Motion::new(equations, Active::all(None), true);
+    let before = motion.kinematics(state).twists.clone();
+    let torque = |(c, x): (&halfshaft_dynamics::Connection, &f64)| c.law.torque(*x);
+    let torques: Vec<f64> = equations.connections.iter().zip(&before).map(torque).collect();
+    let mut shafts = shaft_metrics(equations, run, &settled.twists, &torques);
+    for (index, metrics) in shafts.values_mut().enumerate() {
+        metrics.final_torque = Some(settled.torques[index]);
+        let way = settled.twists[index] - before[index];
+        metrics.overshoot = metrics.first_peak.map(|peak| peak / way).filter(|o| o.is_finite());
+    }
+    shafts
+}
+
+/// The spectra over the orders of the excitation.
+fn order_map(equations: &EquationsOfMotion, recorder: &Recorder<'_>) -> Option<OrderMap> {
+    let track = recorder.track.as_ref()?;
+    let info = recorder.channels().list.get(track.channel)?;
+    track.spectra((&info.name, info.unit), &equations.excitation.orders())
+}
+
+/// The states at whole revolutions.
+fn section(recorder: &Recorder<'_>) -> Option<Table> {
+    if recorder.section.is_empty() {
+        return None;
+    }
+    let of = |at: usize| recorder.section.iter().map(|row| row[at]).collect::<Vec<f64>>();
+    let mut columns = vec![Column::new("time", "s", of(0))];
+    let list = &recorder.channels().list;
+    for (place, at) in recorder.channels().of_section().enumerate() {
+        columns.push(Column::new(list[at].name.clone(), list[at].unit, of(place + 1)));
+    }
+    Some(Table::new(columns))
 }
 
 fn start_sentence(question: &SimulateQuestion) -> String {

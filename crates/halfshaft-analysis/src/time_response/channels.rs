@@ -80,6 +80,19 @@ impl<'l> Channels<'l> {
         self.list.iter().position(fits).unwrap_or(0)
     }
 
+    /// Positions of the twists and their rates.
+    pub(crate) fn of_section(&self) -> impl Iterator<Item = usize> + '_ {
+        let wanted = |info: &ChannelInfo| {
+            matches!(info.quantity, ChannelQuantity::Twist | ChannelQuantity::TwistRate)
+        };
+        self.list.iter().enumerate().filter(move |(_, info)| wanted(info)).map(|(at, _)| at)
+    }
+
+    /// Position of the channel of that name.
+    pub(crate) fn named(&self, name: &str) -> Option<usize> {
+        self.list.iter().position(|info| info.name == name)
+    }
+
     /// Values and slopes of all channels for a state and its rate of change.
     pub(crate) fn sample(&mut self, time: f64, state: &[f64], rate: &[f64], sample: &mut Sample) {
         sample.time = time;
@@ -100,8 +113,14 @@ impl<'l> Channels<'l> {
             let (value, slope) = match channel.owner {
                 Owner::Connection(index) => {
                     let (x, v) = (kinematics.twists[index], kinematics.rates[index]);
-                    let (value, slope) =
-                        of_connection(equations, index, channel.quantity, x, v, change.rates[index]);
+                    let (value, slope) = of_connection(
+                        equations,
+                        index,
+                        channel.quantity,
+                        x,
+                        v,
+                        change.rates[index],
+                    );
                     match &torques {
                         Some(torques) if channel.quantity == ChannelQuantity::Torque => {
                             (torques[index], slope)

@@ -10,7 +10,9 @@ mod answer;
 mod channels;
 mod events;
 mod initial;
+mod orders;
 mod recorder;
+mod roughness;
 mod run;
 mod watch;
 

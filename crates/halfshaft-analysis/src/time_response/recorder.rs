@@ -6,7 +6,9 @@ use halfshaft_numerics::ode::dop853::DenseStep;
 use halfshaft_dynamics::Motion;
 
 use super::channels::{Channels, Sample};
-use halfshaft_results::ChannelMetrics;
+use super::orders::Track;
+use super::roughness::Roughness;
+use halfshaft_results::{ChannelMetrics, Named, NodeMetrics};
 
 /// A local extreme of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +40,10 @@ pub(crate) struct Recorder<'l> {
     pub(crate) traces: Vec<Vec<TracePoint>>,
     followed: Vec<bool>,
     extremes: Vec<Extremes>,
+    roughness: Roughness,
+    /// Samples at even phases of the excitation, and the states at whole revolutions.
+    pub(super) track: Option<Track>,
+    pub(super) section: Vec<Vec<f64>>,
     before: Option<Sample>,
     /// Scratch for a state and its rate of change.
     state: Vec<f64>,
@@ -94,6 +100,9 @@ impl<'l> Recorder<'l> {
             turning: vec![Vec::new(); count],
             traces: vec![Vec::new(); count],
             extremes: vec![Extremes::none(); count],
+            roughness: Roughness::new(&channels),
+            track: None,
+            section: Vec::new(),
             before: None,
             state: vec![0.0; channels.dimension()],
             rate: vec![0.0; channels.dimension()],
@@ -161,12 +170,14 @@ impl<'l> Recorder<'l> {
             let sample = self.sample(dense, self.grid[self.next]);
             self.keep(&sample);
         }
+        self.track(dense, to);
         for part in 1..=PARTS {
             let share = f64::from(part) / f64::from(PARTS);
             let time = if part == PARTS { end } else { begin + (end - begin) * share };
             let sample = self.sample(dense, time);
             if let Some(before) = self.before.take() {
                 self.between(dense, &before, &sample);
+                self.roughness.between(&before, &sample);
             }
             self.measure(&sample);
             self.before = Some(sample);
@@ -181,6 +192,21 @@ impl<'l> Recorder<'l> {
         let mut sample = Sample::default();
         self.channels.sample(time, &self.state, &self.rate, &mut sample);
         sample
+    }
+
+    /// Samples at even phases of the excitation until the end of a step.
+    fn track(&mut self, dense: &DenseStep<'_>, to: f64) {
+        let Some(mut track) = self.track.take() else { return };
+        while let Some(time) = track.next_time().filter(|time| *time <= to.min(self.record.1)) {
+            let sample = self.sample(dense, time);
+            if track.begins_revolution() {
+                let mut row = vec![time];
+                row.extend(self.channels.of_section().map(|at| sample.values[at]));
+                self.section.push(row);
+            }
+            track.take(sample.values[track.channel]);
+        }
+        self.track = Some(track);
     }
 
     fn keep(&mut self, sample: &Sample) {
@@ -243,6 +269,11 @@ impl<'l> Recorder<'l> {
         if self.followed[channel] {
             self.turning[channel].push(TurningPoint { time: root.value, value });
         }
+    }
+
+    /// How the nodes turn over the recorded time.
+    pub(crate) fn nodes(&self) -> Named<NodeMetrics> {
+        self.roughness.metrics(|channel| self.metrics(channel))
     }
 
     /// The value of largest magnitude of a channel over the recorded time.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use halfshaft_dynamics::{Active, EquationsOfMotion, Modes, Motion};
+use halfshaft_model::question::ChannelQuantity;
 use halfshaft_numerics::Error;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_numerics::ode::dop853::Dop853;
@@ -11,6 +12,7 @@ use halfshaft_results::{EnergyBalance, Reason, Termination};
 
 use super::channels::Channels;
 use super::events::Events;
+use super::orders::{Phases, Track};
 use super::recorder::Recorder;
 use super::watch::Watch;
 use crate::equilibrium;
@@ -30,6 +32,8 @@ pub(crate) struct RunSettings {
     pub(crate) record: (f64, f64),
     /// Whether turning points of the twists and their rates are kept.
     pub(crate) follow: bool,
+    /// Channel whose orders are looked at; the first torque where none is named.
+    pub(crate) orders: Option<String>,
     /// Whether dry friction sticks and slides exactly.
     pub(crate) exact_friction: bool,
 }
@@ -71,7 +75,8 @@ pub(crate) fn run<'l>(
     let watch = Watch::new(motion.clone(), 0.0);
     let events = Events::new(equations, &motion, settings.record);
     let numbers = integrator_settings(equations, &initial, settings);
-    let integrator = Dop853::new(motion, 0.0, &initial, numbers).doing("starting the integration")?;
+    let integrator =
+        Dop853::new(motion, 0.0, &initial, numbers).doing("starting the integration")?;
     let mut passes = Passes {
         equations,
         settings,
@@ -112,9 +117,14 @@ enum Finish {
     Reached,
     Interrupted,
     /// A twist is past the limit of its law.
-    RanAway { tree: usize, reach: f64 },
+    RanAway {
+        tree: usize,
+        reach: f64,
+    },
     /// A connection changes its mode without time passing.
-    Chattered { connection: usize },
+    Chattered {
+        connection: usize,
+    },
 }
 
 /// The steps of a run.
@@ -263,6 +273,21 @@ fn ran_away(equations: &EquationsOfMotion, tree: usize, reach: f64, time: f64) -
     Termination::early(Reason::RunsAway, detail)
 }
 
+/// The samples at even phases of the excitation, where there is one.
+fn track(
+    equations: &EquationsOfMotion,
+    channels: &Channels<'_>,
+    settings: &RunSettings,
+) -> Option<Track> {
+    let phases =
+        Phases { speed: settings.active.frequency?, acceleration: settings.active.acceleration };
+    let nonlinear = equations.connections.iter().position(|c| !c.law.is_linear()).unwrap_or(0);
+    let default = || channels.of_connection(nonlinear, ChannelQuantity::Torque);
+    let named = settings.orders.as_deref().and_then(|name| channels.named(name));
+    let channel = named.unwrap_or_else(default);
+    Track::new(phases, channel, &equations.excitation.orders(), settings.record)
+}
+
 fn new_recorder<'l>(equations: &'l EquationsOfMotion, settings: &RunSettings) -> Recorder<'l> {
     let channels = Channels::new(Motion::new(equations, settings.active, true));
     let followed = channels
@@ -272,7 +297,10 @@ fn new_recorder<'l>(equations: &'l EquationsOfMotion, settings: &RunSettings) ->
             settings.follow && (info.name.ends_with(".twist") || info.name.ends_with(".twist_rate"))
         })
         .collect();
-    Recorder::new(channels, settings.record, settings.step, followed)
+    let track = track(equations, &channels, settings);
+    let mut recorder = Recorder::new(channels, settings.record, settings.step, followed);
+    recorder.track = track;
+    recorder
 }
 
 /// Tolerances in the scales of the problem: an absolute error counts against the twist (and
@@ -310,7 +338,10 @@ fn integrator_settings(
 }
 
 /// How an integration ended, in words that help.
-fn termination(finish: Result<ode::Finish, Error>, reached: f64) -> Result<Termination, AnalysisError> {
+fn termination(
+    finish: Result<ode::Finish, Error>,
+    reached: f64,
+) -> Result<Termination, AnalysisError> {
     let runs_away = "the motion runs away there; a softening shaft that is thrown past its \
                      capacity does that: see `halfshaft static`";
     match finish {

@@ -143,6 +143,9 @@ pub struct Simulate {
     /// Dry friction: exact sticks and slides, smoothed is what harmonic balance takes [default: exact]
     #[arg(long, value_name = "WAY", value_parser = OneOf(&DryFriction::WORDS))]
     pub friction: Option<String>,
+    /// Channel whose spectra over the orders are told [default: the torque of the first nonlinear shaft]
+    #[arg(long, value_name = "CHANNEL")]
+    pub orders: Option<String>,
     /// Time between two rows of the output [default: a two-thousandth of what is recorded]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub step: Option<String>,
@@ -273,6 +276,7 @@ impl Simulate {
             frequency: self.frequency.clone(),
             rate: self.rate.clone(),
             friction: self.friction.clone(),
+            orders: self.orders.clone(),
             step: self.step.clone(),
             tolerance: self.tolerance.clone(),
             record: self.record.clone(),

@@ -99,7 +99,7 @@ pub fn parse_initial(text: &str, line: &Driveline) -> Result<InitialValue, Optio
 }
 
 /// The channel of that name, or what is wrong with it and a hint.
-fn parse_channel(name: &str, line: &Driveline) -> Result<Channel, (String, String)> {
+pub(super) fn parse_channel(name: &str, line: &Driveline) -> Result<Channel, (String, String)> {
     let (owner, word) = name.rsplit_once('.').ok_or_else(|| {
         let message = format!("\"{name}\" is no channel");
         (message, "channels are <shaft>.twist, <shaft>.twist_rate, <node>.speed ...".to_owned())

@@ -154,6 +154,9 @@ pub struct SimulateQuestion {
     /// Rate at which Ω moves, rad/s²: a run-up, or a run-down below zero.
     #[serde(skip_serializing_if = "is_zero")]
     pub acceleration: f64,
+    /// Channel whose order spectra are told; `None` for the torque of the first nonlinear shaft.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orders: Option<String>,
     /// Whether dry friction sticks and slides exactly, or is smoothed.
     #[serde(skip_serializing_if = "is_exact")]
     pub friction: DryFriction,
@@ -174,6 +177,7 @@ impl Default for SimulateQuestion {
             frequency: None,
             acceleration: 0.0,
             friction: DryFriction::Exact,
+            orders: None,
             step: None,
             tolerance: 1e-10,
             record: None,

@@ -1,7 +1,9 @@
 //! From the words of a question to the question.
 
+use super::channel::parse_channel;
 use super::kinds::{
-    DryFriction, ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Verb,
+    DryFriction, ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion,
+    SimulateQuestion, Verb,
 };
 use super::text::{OptionError, QuestionText};
 use super::values::Reader;
@@ -65,12 +67,29 @@ impl Reader<'_> {
                 (Some(run), Some(duration)) => (run.to - run.from) / duration,
                 _ => 0.0,
             },
+            orders: self.order_channel(),
             friction: self
                 .choice("friction", text.friction.as_deref(), &DryFriction::ALL)
                 .unwrap_or_default(),
             step: self.step(recorded),
             tolerance: self.tolerance(default.tolerance),
             record,
+        }
+    }
+
+    /// The channel whose orders are told.
+    fn order_channel(&mut self) -> Option<String> {
+        let written = self.text.orders.as_deref()?;
+        if self.text.frequency.is_none() {
+            let hint = "add --frequency, one speed or a run-up A..B";
+            self.refuse("orders", Some(written), "orders need an excitation speed", hint);
+        }
+        match parse_channel(written, self.line) {
+            Ok(channel) => Some(channel.name()),
+            Err((message, hint)) => {
+                self.errors.push(OptionError::new("orders", written, message, hint));
+                None
+            }
         }
     }
 

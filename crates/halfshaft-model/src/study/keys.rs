@@ -42,6 +42,7 @@ pub static QUESTION: TableSpec = TableSpec {
         option("periods", "As --periods."),
         option("rate", "As --rate."),
         option("friction", "As --friction."),
+        option("orders", "As --orders."),
         KeySpec::new("backbone", ValueSpec::Flag, "As --backbone."),
         KeySpec::new("printed-velocity", ValueSpec::Flag, "As --printed-velocity."),
         KeySpec::new("verify", ValueSpec::Flag, "As --verify."),

@@ -346,6 +346,7 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         periods: option("periods"),
         rate: option("rate"),
         friction: option("friction"),
+        orders: option("orders"),
     }
 }
 

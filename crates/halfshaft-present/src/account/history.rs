@@ -2,17 +2,63 @@
 
 use halfshaft_results::{ChannelMetrics, EnergyBalance, HistoryResult};
 
-use super::{Account, Grid};
+use super::{Account, Grid, events};
 use crate::words::{column_label, column_words, decimals, number, places, plain, quantity};
 
 /// The whole account.
 pub(crate) fn account(result: &HistoryResult) -> Account {
     let mut account = Account::default();
     account.text([span(result), largest(result)]);
+    account.text(transients(result));
+    account.text(events::sentences(result));
     figures(result, &mut account);
+    account.append(more(result));
     account.grid(extremes(result));
     account.text(trust(result));
     account
+}
+
+/// Beside the history: orders, events, nodes.
+pub(crate) fn more(result: &HistoryResult) -> Account {
+    let mut account = Account::default();
+    for figure in crate::figures::orders::ids(result) {
+        account.figure(figure);
+    }
+    if let Some(map) = &result.orders {
+        account.note(events::how(map));
+        account.grid(events::orders(map));
+    }
+    if let Some(grid) = events::table(result) {
+        account.grid(grid);
+    }
+    if !result.metrics.shafts.is_empty() && result.shock.is_none() {
+        account.grid(super::shock::table(result));
+    }
+    if let Some(grid) = events::nodes(result) {
+        account.grid(grid);
+    }
+    account
+}
+
+/// How the shaft with the largest torque takes a transient.
+fn transients(result: &HistoryResult) -> Vec<String> {
+    let shafts = result.metrics.shafts.iter();
+    let most = shafts.max_by(|a, b| a.1.peak_torque.abs().total_cmp(&b.1.peak_torque.abs()));
+    let Some((name, metrics)) = most else { return Vec::new() };
+    let mut sentences = Vec::new();
+    if let (Some(after), Some(time)) = (metrics.final_torque, metrics.first_peak_time) {
+        let over = metrics.overshoot.map_or_else(String::new, |overshoot| {
+            format!(" and overshoots by {}", crate::words::percent(overshoot.abs(), 3))
+        });
+        sentences.push(format!(
+            "The torque of the {} settles at {}; its twist first turns round after {}{over}.",
+            plain(name),
+            quantity(after, 6, "N·m"),
+            quantity(time, 4, "s")
+        ));
+    }
+    sentences.push(super::shock::settling(metrics));
+    sentences
 }
 
 /// The places of the figures of the history.

@@ -26,6 +26,7 @@ pub(crate) mod study;
 pub(crate) mod verification;
 
 mod chain;
+mod events;
 mod grid;
 
 /// A piece of an account.

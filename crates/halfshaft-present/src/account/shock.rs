@@ -13,7 +13,9 @@ pub(crate) fn account(result: &HistoryResult) -> Account {
         account.text(first_peak(name, metrics));
         account.text([torque(name, metrics), settling(metrics)]);
     }
+    account.text(super::events::sentences(result));
     history::figures(result, &mut account);
+    account.append(history::more(result));
     account.note(format!(
         "Method {}: {}.{}",
         plain(&shock.method),
@@ -102,7 +104,7 @@ pub(crate) fn settling(metrics: &ShaftMetrics) -> String {
 }
 
 /// The metrics of every shaft, one row each.
-fn table(result: &HistoryResult) -> Grid {
+pub(super) fn table(result: &HistoryResult) -> Grid {
     let rows = || result.metrics.shafts.values();
     let values = |of: fn(&ShaftMetrics) -> f64| rows().map(move |m| Some(of(m)));
     let maybe = |of: fn(&ShaftMetrics) -> Option<f64>| rows().map(of);
@@ -114,6 +116,8 @@ fn table(result: &HistoryResult) -> Grid {
         .numbers("at", "s", 4, values(|m| m.peak_torque_time))
         .numbers("before", "N·m", 6, values(|m| m.static_torque))
         .numbers("peak over before", "", 4, maybe(|m| m.dynamic_factor))
+        .numbers("in the end", "N·m", 6, maybe(|m| m.final_torque))
+        .numbers("overshoot", "", 4, maybe(|m| m.overshoot))
         .numbers("settled after", "s", 4, maybe(|m| m.settling_time))
         .numbers("frequency", "rad/s", 5, maybe(|m| m.oscillation_frequency))
         .numbers("decay", "1/s", 4, maybe(|m| m.decay_rate))

@@ -3,7 +3,7 @@
 use halfshaft_results::HistoryResult;
 
 use super::axes::{curve, level, name, time_axis};
-use crate::figure::{Axis, Colour, Figure, Panel};
+use crate::figure::{Axis, Colour, Figure, Marker, Panel, Points};
 use crate::words::{Quantity, column_words, list, plain};
 
 /// Shafts in one figure.
@@ -92,11 +92,44 @@ fn panel(
         // The upper panel's legend is enough for all.
         line.in_legend = first && shafts.len() > 1;
         panel = panel.with(line);
+        if quantity != Quantity::Torque {
+            panel = panel.with_all(marks(result, shaft, quantity, first));
+        }
         if let Some(value) = before(result, shaft, quantity).filter(|_| shafts.len() == 1) {
             panel = panel.with(level(value, "before"));
         }
     }
     (!panel.items.is_empty()).then_some(panel)
+}
+
+/// Kinds of events with their names and marks.
+const EVENTS: [(&str, &str, Marker, Colour); 4] = [
+    ("contact", "contact", Marker::Triangle, Colour::DANGER),
+    ("separation", "contact lost", Marker::TriangleDown, Colour::Orange),
+    ("stick", "sticks", Marker::Square, Colour::Purple),
+    ("slip", "slides", Marker::Diamond, Colour::SAFE),
+];
+/// More marks than this of one kind would hide the curve.
+const MOST_MARKS: usize = 400;
+
+/// The events of a shaft as points on its curve.
+fn marks(result: &HistoryResult, shaft: &str, quantity: Quantity, first: bool) -> Vec<Points> {
+    let of = |(kind, label, marker, colour): (&str, &str, Marker, Colour)| {
+        let events = result.events.iter().filter(|e| e.kind == kind && e.element == shaft);
+        let value = |event: &halfshaft_results::HistoryEvent| match quantity {
+            Quantity::Twist => event.twist,
+            _ => event.twist_rate,
+        };
+        let (x, y): (Vec<f64>, Vec<f64>) = events.map(|e| (e.time, value(e))).unzip();
+        let drawn = !x.is_empty() && x.len() <= MOST_MARKS;
+        drawn.then(|| Points {
+            marker,
+            size: 5.0,
+            in_legend: first,
+            ..Points::new(label, x, y, colour)
+        })
+    };
+    EVENTS.into_iter().filter_map(of).collect()
 }
 
 /// The value before the shock.

@@ -18,6 +18,7 @@ pub(crate) mod history;
 pub(crate) mod levels;
 pub(crate) mod methods;
 pub(crate) mod modes;
+pub(crate) mod orders;
 pub(crate) mod periodic;
 pub(crate) mod resonance;
 pub(crate) mod statics;
@@ -40,6 +41,7 @@ pub fn of(answer: &Answer) -> Vec<Figure> {
         Answer::History(result) => {
             let mut figures = history::figures(result);
             figures.extend(methods::figure(result));
+            figures.extend(orders::figures(result));
             figures
         }
         Answer::Resonance(result) => resonance::figures(result),
