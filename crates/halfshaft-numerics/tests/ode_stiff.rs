@@ -9,7 +9,6 @@ use halfshaft_numerics::ode::{
 fn run<S: Differentiated>(system: S, start: &[f64], t_end: f64, settings: Settings) -> Radau5<S> {
     let mut integrator = Radau5::new(system, 0.0, start, settings).expect("the arguments fit");
     while integrator.step(t_end).expect("the problem is solvable") == Step::Advanced {}
-    println!("{:?}", integrator.statistics());
     integrator
 }
 
@@ -59,7 +58,6 @@ fn a_decay_beside_an_oscillation() {
         let integrator = run(skew_system(), &start, 10.0, Settings::with_tolerance(tolerance));
         let errors = integrator.state().iter().zip(&exact).map(|(a, b)| (a - b).abs());
         let error = errors.fold(0.0, f64::max);
-        println!("{tolerance:e}: {error:e}");
         assert!(error < most, "{tolerance:e}: {error:e}");
         let work = integrator.statistics();
         assert!(work.accepted < steps, "{work:?}");
@@ -84,16 +82,15 @@ fn van_der_pol() -> impl System {
     })
 }
 
-/// Source of truth: Van der Pol's equation with ε = 1e-6 at t = 2, from (2, -0.66): reference
+/// Source of truth: Van der Pol's equation with ε = 1e-6 at t = 2, from (2, 0): reference
 /// solution of Hairer & Wanner II, section IV.10.
 #[test]
 fn van_der_pol_jumps() {
     for (tolerance, most, steps) in [(1e-4, 1e-3, 300), (1e-7, 1e-5, 800), (1e-10, 1e-8, 3000)] {
         let system = ByDifferences::new(van_der_pol());
-        let integrator = run(system, &[2.0, -0.66], 2.0, Settings::with_tolerance(tolerance));
+        let integrator = run(system, &[2.0, 0.0], 2.0, Settings::with_tolerance(tolerance));
         let state = integrator.state();
         let errors = (state[0] - 1.706_167_732_170_483, state[1] + 0.892_809_701_024_797_5);
-        println!("{tolerance:e}: {errors:?}");
         assert!(errors.0.abs() < most && errors.1.abs() < most, "{tolerance:e}: {errors:?}");
         let work: Statistics = integrator.statistics();
         assert!(work.accepted < steps && work.jacobians <= work.accepted + work.rejected);
