@@ -22,18 +22,18 @@ pub struct Integrator<S, M> {
     pub(super) state: Vec<f64>,
     pub(super) rate: Vec<f64>,
     pub(super) previous: Vec<f64>,
-    previous_rate: Vec<f64>,
+    pub(super) previous_rate: Vec<f64>,
     /// Scratch for the state and derivative at the end of an attempt.
-    trial: Vec<f64>,
-    trial_rate: Vec<f64>,
+    pub(super) trial: Vec<f64>,
+    pub(super) trial_rate: Vec<f64>,
     /// The last accepted step; of length zero before the first.
     pub(super) span: Span,
     /// Where the last accepted step ended before it was retaken.
-    furthest: f64,
-    method: M,
+    pub(super) furthest: f64,
+    pub(super) method: M,
     coefficients: Vec<Coefficients>,
-    dense_is_ready: bool,
-    scale: ErrorScale,
+    pub(super) dense_is_ready: bool,
+    pub(super) scale: ErrorScale,
     control: StepControl,
     pub(super) settings: Settings,
     pub(super) statistics: Statistics,
@@ -224,7 +224,7 @@ impl<S: System, M: Method<S>> Integrator<S, M> {
     }
 
     /// Forgets the last step, whose stages the attempts in vain have overwritten.
-    fn stopped(&mut self, stop: Stop) -> Stop {
+    pub(super) fn stopped(&mut self, stop: Stop) -> Stop {
         self.previous.copy_from_slice(&self.state);
         self.span = Span { start: self.time, length: 0.0 };
         self.furthest = self.time;
@@ -251,7 +251,7 @@ impl<S: System, M: Method<S>> Integrator<S, M> {
 
     /// Evaluates the derivative at the end of the trial; whether that and the state are finite.
     #[inline]
-    fn is_trial_finite(&mut self, time: f64) -> bool {
+    pub(super) fn is_trial_finite(&mut self, time: f64) -> bool {
         let (end, rate) = (&self.trial, &mut self.trial_rate);
         self.method.end_rate(&mut self.system, time, end, rate, &mut self.statistics);
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
@@ -284,54 +284,6 @@ impl<S: System, M: Method<S>> Integrator<S, M> {
                 self.method.stiffness(self.span.length, &self.state, &self.rate, &self.scale);
             self.stiffness.note(size > M::STABLE_TO);
         }
-    }
-
-    /// Takes the last accepted step again from its beginning, but only to `end`, as one step of the
-    /// method: the state there has the full order, not that of the dense output, and is what a new
-    /// integrator would find that starts there with a step of this length.
-    ///
-    /// May be repeated with any `end` inside the step as it was first accepted. Afterwards the time
-    /// is `end`, [`Integrator::previous_time`] still the beginning, and [`Integrator::dense`] covers
-    /// the shorter step. The system must be as it was.
-    ///
-    /// # Errors
-    ///
-    /// [`Stop::OutsideStep`] if `end` is not inside the step, after which nothing has changed.
-    /// [`Stop::NonFinite`] or [`Stop::StepTooSmall`] if the shorter step cannot be taken, which the
-    /// longer one makes unlikely: the integrator then stands where it stood, as after a stop.
-    pub fn retake(&mut self, end: f64) -> Result<(), Stop> {
-        let span = Span { start: self.span.start, length: end - self.span.start };
-        let whole = self.furthest - span.start;
-        let share = span.length / whole;
-        if !(share > 0.0 && share <= 1.0) {
-            let (start, time) = (span.start, self.furthest);
-            return Err(Stop::OutsideStep { start, time, end });
-        }
-        self.method.forget();
-        self.dense_is_ready = false;
-        let trial = Trial {
-            span,
-            end_time: end,
-            state: &self.previous,
-            rate: &self.previous_rate,
-            scale: &self.scale,
-            is_controlled: false,
-            is_unsure: true,
-        };
-        let error =
-            self.method.attempt(&mut self.system, &trial, &mut self.trial, &mut self.statistics);
-        if error > 0.0 {
-            let stop = Stop::StepTooSmall { time: span.start, step: span.length };
-            return Err(self.stopped(stop));
-        }
-        if error.is_nan() || !self.is_trial_finite(end) {
-            return Err(self.stopped(Stop::NonFinite { time: span.start }));
-        }
-        std::mem::swap(&mut self.state, &mut self.trial);
-        std::mem::swap(&mut self.rate, &mut self.trial_rate);
-        self.method.accepted(span, &self.rate);
-        (self.time, self.span) = (end, span);
-        Ok(())
     }
 
     fn prepare_dense(&mut self) {

@@ -24,6 +24,7 @@ mod norm;
 mod one_step;
 pub mod periodic;
 pub mod radau5;
+mod retake;
 mod settings;
 mod slopes;
 mod stiffness;
