@@ -47,6 +47,7 @@ fuzz_target!(|text: &str| {
         rate: same(),
         friction: same(),
         orders: same(),
+        integrator: same(),
         ..QuestionText::default()
     };
     for (_, verb) in Verb::ALL {

@@ -560,3 +560,167 @@ table = { time = [0.5, 1, \"1200 ms\"], torque = [0, 10, -4] }
     let twist = result.values("shaft.twist").iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     assert!(twist < 1e-13);
 }
+
+const STIFF: &str = "\
+format = 1
+name = \"A very stiff mesh\"
+[[inertia]]
+name = \"motor\"
+inertia = 0.1
+[[inertia]]
+name = \"wheel\"
+inertia = 2
+damping = 10
+[[inertia]]
+name = \"load\"
+inertia = 2
+[[gear]]
+name = \"mesh\"
+input = \"motor\"
+output = \"wheel\"
+ratio = 10
+stiffness = 1e9
+damping = 1e6
+[[shaft]]
+name = \"shaft\"
+from = \"wheel\"
+to = \"load\"
+stiffness = 1e4
+[[torque]]
+name = \"drive\"
+on = \"motor\"
+amplitude = 10
+frequency = \"5 Hz\"
+phase = \"-90 deg\"
+";
+
+// Source: the limit: with ever stiffer teeth the line is the one with a rigid gear, whose speeds are the
+// reference of transients; the explicit integrator, held back by stability, finds the same.
+#[test]
+fn a_stiff_mesh_is_integrated_implicitly() {
+    let line = line_of(STIFF, &[]);
+    let run = |integrator: Option<&str>, tolerance: &str| {
+        let text = QuestionText {
+            duration: some("1s"),
+            step: some("0.05s"),
+            tolerance: some(tolerance),
+            integrator: integrator.map(str::to_owned),
+            ..QuestionText::default()
+        };
+        simulate(&line, text)
+    };
+    let automatic = run(None, "1e-8");
+    let used = &automatic.metrics.integrators;
+    assert_eq!(used.len(), 2, "{used:?}");
+    assert!(used[1].method.contains("Radau") && used[1].why.contains("stiff"));
+    let explicit = run(Some("dop853"), "1e-8");
+    assert_eq!(explicit.metrics.integrators.len(), 1);
+    assert!(automatic.metrics.steps * 5 < explicit.metrics.steps);
+    for (time, wheel, load) in [
+        (0.1, 0.429_616_205, 0.494_685_357),
+        (0.25, 0.187_570_452, 0.240_268_635),
+        (0.5, 0.371_995_049, 0.472_063_857),
+        (0.75, 0.122_783_842, 0.159_685_818),
+        (1.0, -0.112_249_309, -0.138_145_28),
+    ] {
+        for result in [&automatic, &explicit] {
+            let at = |name: &str| result.table().interpolate(name, time).expect("recorded");
+            assert!((at("wheel.speed") - wheel).abs() < 2e-6, "{} {wheel}", at("wheel.speed"));
+            assert!((at("load.speed") - load).abs() < 2e-6, "{} {load}", at("load.speed"));
+        }
+    }
+}
+
+// Source: a stiff shaft between two inertias carries the torque that accelerates the far one: the amplitudes
+// of both orders are those of the closed form at every speed; nothing is at other orders.
+#[test]
+fn order_cuts_are_the_amplitudes_of_the_closed_form() {
+    let text = "\
+format = 1
+name = \"Two orders\"
+[[inertia]]
+name = \"a\"
+inertia = 1
+[[inertia]]
+name = \"b\"
+inertia = 3
+[[shaft]]
+name = \"shaft\"
+from = \"a\"
+to = \"b\"
+stiffness = 1e6
+damping = 100
+[[torque]]
+name = \"drive\"
+on = \"a\"
+amplitude = 10
+harmonics = [ { order = 2.5, amplitude = 4, phase = 1 } ]
+";
+    let line = line_of(text, &[]);
+    let ask = |frequency: &str, duration: &str| {
+        let text = QuestionText {
+            frequency: some(frequency),
+            duration: some(duration),
+            ..QuestionText::default()
+        };
+        simulate(&line, text)
+    };
+    let amplitude = |order: f64, torque: f64, speed: f64| {
+        // T = f 3 / (1 - 3 w² / (4 k) ...): relative motion of two masses about their middle.
+        let (w, reduced, k, c) = (order * speed, 0.75, 1e6, 100.0);
+        let stiff = f64::hypot(k, c * w);
+        torque * stiff / f64::hypot(k - reduced * w * w, c * w) * 0.75
+    };
+    for (frequency, duration, close) in [("40", "6s", 1e-4), ("20..60", "20s", 2e-3)] {
+        let result = ask(frequency, duration);
+        let map = result.orders.expect("has a speed");
+        assert_eq!(map.channel, "shaft.torque");
+        assert!(map.cuts.contains(&1.0) && map.cuts.contains(&2.5), "{:?}", map.cuts);
+        for (order, torque) in [(1.0, 10.0), (2.5, 4.0)] {
+            // The first blocks hold the free vibration of the start.
+            for (speed, found) in map.frequency.iter().zip(map.cut(order)).skip(2) {
+                assert_close(found, amplitude(order, torque, *speed), close);
+            }
+        }
+        assert!(map.cut(4.0).iter().skip(2).all(|a| *a < 0.02));
+    }
+}
+
+// Source: closed forms of a tip-in: an undamped line under a step of torque overshoots by all of the way, and
+// its torque peaks at twice the final one; the largest acceleration is at the start.
+#[test]
+fn a_tip_in_has_its_metrics() {
+    let text = "\
+format = 1
+name = \"Tip-in\"
+[[inertia]]
+name = \"a\"
+inertia = 2
+[[shaft]]
+name = \"shaft\"
+from = \"a\"
+to = \"ground\"
+stiffness = 200
+damping = 0.2
+[[torque]]
+name = \"tip-in\"
+on = \"a\"
+pulse = { shape = \"ramp\", peak = 30, start = \"0 s\", duration = \"1 ms\" }
+";
+    let line = line_of(text, &[]);
+    let result = simulate(&line, QuestionText { duration: some("10s"), ..QuestionText::default() });
+    let (d, w0) = (0.05_f64, 10.0_f64);
+    let w = (w0 * w0 - d * d).sqrt();
+    let shaft = &result.metrics.shafts["shaft"];
+    assert_close(shaft.final_torque.expect("settles"), 30.0, 1e-12);
+    let overshoot = (-d * std::f64::consts::PI / w).exp();
+    assert_close(shaft.overshoot.expect("turns"), overshoot, 1e-4);
+    assert_close(shaft.peak_torque, 30.0 * (1.0 + overshoot), 1e-4);
+    assert_close(shaft.first_peak_time.expect("turns"), std::f64::consts::PI / w + 5e-4, 1e-5);
+    assert_close(shaft.oscillation_frequency.expect("rings"), w, 1e-8);
+    assert_close(shaft.decay_rate.expect("rings"), d, 1e-6);
+    let node = &result.metrics.nodes["a"];
+    assert_close(node.peak_acceleration, 15.0, 1e-3);
+    assert_close(node.peak_jerk, 15.0 / 1e-3, 1e-3);
+    assert_eq!(node.speed_irregularity, None);
+}

@@ -48,10 +48,12 @@ pub enum EventKind {
         /// Whether on the drive side.
         drive: bool,
     },
-    /// The twist enters another stage: its number by ascending twist, from 1.
+    /// The twist enters another stage.
     Stage {
-        /// The stage entered.
+        /// The stage entered, counted from zero twist outwards, from 1.
         number: usize,
+        /// Whether on the drive side.
+        drive: bool,
     },
     /// The twist passes a point of a measured law, of no interest to anyone.
     Point,
@@ -257,7 +259,10 @@ impl Motion<'_> {
             },
             TorqueLaw::OneSided(_) if up => EventKind::Contact { drive: true },
             TorqueLaw::OneSided(_) => EventKind::Separation { drive: true },
-            TorqueLaw::PiecewiseLinear(_) => EventKind::Stage { number: after + 1 },
+            TorqueLaw::PiecewiseLinear(law) => {
+                let (number, drive) = law.stage(after);
+                EventKind::Stage { number, drive }
+            }
             TorqueLaw::Table(_) | TorqueLaw::Polynomial(_) => EventKind::Point,
         };
         self.set_modes(Arc::new(modes));

@@ -17,8 +17,8 @@
 //!
 //! # Time
 //!
-//! [`ode`] integrates `y' = f(t, y)` by an explicit method of order 8 with dense output, through
-//! break times. [`ode::periodic`] finds periodic orbits with their Floquet multipliers.
+//! [`ode`] integrates `y' = f(t, y)` by explicit methods of order 8 and 5, and by an implicit one for
+//! stiff systems, all with dense output and through break times. [`ode::periodic`] finds periodic orbits with their Floquet multipliers.
 //! [`ensemble`] runs thousands of trajectories side by side in vector registers and on all cores.
 //!
 //! # Periodic signals

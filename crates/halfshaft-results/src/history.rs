@@ -88,7 +88,8 @@ pub struct ShaftMetrics {
 /// How unevenly and how roughly a node turns over the recorded time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NodeMetrics {
-    /// Largest less smallest speed over the magnitude of the mean; `None` about standstill.
+    /// Largest less smallest speed over the magnitude of the mean; `None` where it does not turn
+    /// one way all the time.
     pub speed_irregularity: Option<f64>,
     /// Acceleration of largest magnitude, with its sign, rad/s².
     #[serde(deserialize_with = "crate::number::read")]
@@ -112,7 +113,8 @@ pub struct OrderMap {
     pub channel: String,
     /// Unit of the amplitudes.
     pub unit: String,
-    /// Revolutions of a block, under Hann's window; half of them are shared with the next block.
+    /// Revolutions of a block, under Hann's window; three quarters of them are shared with the next
+    /// block.
     pub revolutions: usize,
     /// Excitation speed in the middle of each block, rad/s.
     #[serde(deserialize_with = "crate::number::read")]
@@ -136,6 +138,18 @@ impl OrderMap {
         let of = |row: &Vec<f64>| nearest.and_then(|at| row.get(at)).copied().unwrap_or(f64::NAN);
         self.amplitude.iter().map(of).collect()
     }
+}
+
+/// An integrator with the time from which it was used.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct IntegratorUse {
+    /// Name of the method.
+    pub method: String,
+    /// From when on, s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub from: f64,
+    /// Why it was chosen.
+    pub why: String,
 }
 
 /// A contact, a stage, a stick or a slip.
@@ -208,6 +222,9 @@ pub struct HistoryMetrics {
     /// What happened at each connection with free play, stages or dry friction.
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub events: Named<ConnectionEvents>,
+    /// The integrators that took the steps.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub integrators: Vec<IntegratorUse>,
     /// Accepted steps of the integration.
     pub steps: u64,
     /// Evaluations of the equations of motion.

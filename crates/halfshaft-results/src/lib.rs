@@ -41,7 +41,7 @@ pub use folds::{FoldsResult, ResponseCount};
 pub use header::{Header, ModelIdentity, Reason, Termination};
 pub use history::{
     ChannelMetrics, ConnectionEvents, EnergyBalance, HistoryEvent, HistoryMetrics, HistoryResult,
-    MethodRow, NodeMetrics, OrderMap, ShaftMetrics, ShockDetails,
+    IntegratorUse, MethodRow, NodeMetrics, OrderMap, ShaftMetrics, ShockDetails,
 };
 pub use modes::{Mode, ModesResult};
 pub use report::{LevelRow, MissingSection, ReportResult};

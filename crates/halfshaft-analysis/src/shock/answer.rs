@@ -107,6 +107,7 @@ impl ShockProblem<'_> {
             channels: channel_metrics(&run.recorder),
             energy_balance: Some(run.energy),
             nodes: run.recorder.nodes(),
+            integrators: run.integrators.clone(),
             events: run.events.summary(self.question.duration),
             steps: run.steps,
             evaluations: run.evaluations,

@@ -1,7 +1,7 @@
 //! A shock by integration of a line: the whole one, or the surrogate of a single equation.
 
 use halfshaft_dynamics::{Active, EquationsOfMotion};
-use halfshaft_model::question::{ChannelQuantity, ShockQuestion};
+use halfshaft_model::question::{ChannelQuantity, IntegratorChoice, ShockQuestion};
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{Named, ShaftMetrics};
 
@@ -25,6 +25,7 @@ pub(crate) fn integrate<'l>(
         record: (0.0, question.duration),
         follow: true,
         exact_friction: true,
+        integrator: IntegratorChoice::Automatic,
         orders: None,
     };
     run(equations, state, &settings, observer)

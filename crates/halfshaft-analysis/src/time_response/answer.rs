@@ -38,6 +38,7 @@ pub(crate) fn solve(
         step: question.step.unwrap_or((record.1 - record.0) / DEFAULT_PARTS),
         record,
         follow: question.frequency.is_none(),
+        integrator: question.integrator,
         orders: question.orders.clone(),
         exact_friction: question.friction == DryFriction::Exact,
     };
@@ -65,6 +66,7 @@ pub(crate) fn solve(
         channels: channel_metrics(&run.recorder),
         energy_balance: Some(run.energy),
         events: run.events.summary(question.duration),
+        integrators: run.integrators.clone(),
         steps: run.steps,
         evaluations: run.evaluations,
     };

@@ -133,7 +133,10 @@ impl Connection {
             EventKind::Separation { drive } => {
                 ("separation", format!("contact lost on the {}", side(drive)))
             }
-            EventKind::Stage { number } => ("stage", format!("stage {number} by twist begins")),
+            EventKind::Stage { number: 1, .. } => ("stage", "stage 1 begins".to_owned()),
+            EventKind::Stage { number, drive } => {
+                ("stage", format!("stage {number} begins on the {}", side(drive)))
+            }
             EventKind::Stick => ("stick", "dry friction sticks".to_owned()),
             EventKind::Slip { forward: true } => ("slip", "slides forwards".to_owned()),
             EventKind::Slip { forward: false } => ("slip", "slides backwards".to_owned()),

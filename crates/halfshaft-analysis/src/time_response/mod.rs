@@ -8,6 +8,7 @@
 
 mod answer;
 mod channels;
+mod engine;
 mod events;
 mod initial;
 mod orders;

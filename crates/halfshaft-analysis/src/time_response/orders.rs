@@ -1,7 +1,7 @@
 //! Order spectra: amplitudes over the orders of the excitation, at every speed of a run.
 //!
 //! The channel is sampled at even phases of the excitation, so that an order stays in its line however the
-//! speed moves. Blocks of whole revolutions under Hann's window, half of each shared with the next.
+//! speed moves. Blocks of whole revolutions under Hann's window, three quarters of each shared with the next.
 
 use halfshaft_numerics::harmonics::{Sampler, Spectrum};
 use halfshaft_results::OrderMap;
@@ -100,7 +100,8 @@ impl Track {
     /// The spectra; `None` for fewer revolutions than a few blocks.
     pub(super) fn spectra(&self, (name, unit): (&str, &str), excited: &[f64]) -> Option<OrderMap> {
         let whole = self.samples.len() / self.per_revolution;
-        let revolutions = REVOLUTIONS.min(2 * whole / LEAST_BLOCKS);
+        // An even number has half orders in its lines.
+        let revolutions = REVOLUTIONS.min(2 * whole / LEAST_BLOCKS) / 2 * 2;
         if revolutions < LEAST_REVOLUTIONS {
             return None;
         }
@@ -123,7 +124,7 @@ impl Track {
             amplitude.push(moduli.map(|value| 2.0 * value.modulus()).collect::<Vec<f64>>());
             let middle = (self.first + from + block / 2) as f64 / self.per_revolution as f64;
             speed.push(self.phases.speed_at_phase(std::f64::consts::TAU * middle));
-            from += block / 2;
+            from += block / 4;
         }
         let order: Vec<f64> = (0..count).map(|k| k as f64 / revolutions as f64).collect();
         let cuts = cuts(&order, &amplitude, excited);

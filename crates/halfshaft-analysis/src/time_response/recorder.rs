@@ -1,7 +1,7 @@
 //! Watching an integration: the history on a grid, turning points, extremes.
 
 use halfshaft_numerics::bracket::{RootSettings, find_root};
-use halfshaft_numerics::ode::dop853::DenseStep;
+use halfshaft_numerics::ode::DenseStep;
 
 use halfshaft_dynamics::Motion;
 

@@ -6,9 +6,6 @@ use halfshaft_results::{ChannelMetrics, Named, NodeMetrics};
 use super::channels::{Channels, Sample};
 use super::recorder::TurningPoint;
 
-/// A speed below this part of its swing is about standstill.
-const STANDSTILL: f64 = 1e-3;
-
 /// Largest accelerations and jerks of the nodes.
 #[derive(Clone, Debug)]
 pub(super) struct Roughness {
@@ -51,8 +48,9 @@ impl Roughness {
     ) -> Named<NodeMetrics> {
         let of = |(at, (name, channel)): (usize, &(String, usize))| {
             let speed = of_channel(*channel);
-            let turns = speed.mean.abs() > STANDSTILL * speed.amplitude;
-            let irregularity = (2.0 * speed.amplitude / speed.mean.abs()).abs();
+            // A node that stands still in between has no speed to be uneven about.
+            let turns = speed.minimum * speed.maximum > 0.0;
+            let irregularity = (2.0 * speed.amplitude / speed.mean).abs();
             let (acceleration, jerk) = (self.acceleration[at], self.jerk[at]);
             let metrics = NodeMetrics {
                 speed_irregularity: (turns && irregularity.is_finite()).then_some(irregularity),

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use halfshaft_dynamics::{Active, EquationsOfMotion, Modes, Motion};
-use halfshaft_model::question::ChannelQuantity;
+use halfshaft_model::question::{ChannelQuantity, IntegratorChoice};
 use halfshaft_numerics::Error;
 use halfshaft_numerics::observer::Observer;
-use halfshaft_numerics::ode::dop853::Dop853;
 use halfshaft_numerics::ode::{self, Settings, Stop, System, Tolerance};
-use halfshaft_results::{EnergyBalance, Reason, Termination};
+use halfshaft_results::{EnergyBalance, IntegratorUse, Reason, Termination};
 
 use super::channels::Channels;
+use super::engine::Engine;
 use super::events::Events;
 use super::orders::{Phases, Track};
 use super::recorder::Recorder;
@@ -32,6 +32,8 @@ pub(crate) struct RunSettings {
     pub(crate) record: (f64, f64),
     /// Whether turning points of the twists and their rates are kept.
     pub(crate) follow: bool,
+    /// Which integrator.
+    pub(crate) integrator: IntegratorChoice,
     /// Channel whose orders are looked at; the first torque where none is named.
     pub(crate) orders: Option<String>,
     /// Whether dry friction sticks and slides exactly.
@@ -42,6 +44,7 @@ pub(crate) struct RunSettings {
 pub(crate) struct Run<'l> {
     pub(crate) recorder: Recorder<'l>,
     pub(crate) events: Events,
+    pub(crate) integrators: Vec<IntegratorUse>,
     pub(crate) energy: EnergyBalance,
     pub(crate) steps: u64,
     pub(crate) evaluations: u64,
@@ -75,12 +78,12 @@ pub(crate) fn run<'l>(
     let watch = Watch::new(motion.clone(), 0.0);
     let events = Events::new(equations, &motion, settings.record);
     let numbers = integrator_settings(equations, &initial, settings);
-    let integrator =
-        Dop853::new(motion, 0.0, &initial, numbers).doing("starting the integration")?;
+    let engine = Engine::new(settings.integrator, motion, &initial, numbers)
+        .doing("starting the integration")?;
     let mut passes = Passes {
         equations,
         settings,
-        integrator,
+        engine,
         recorder,
         watch,
         reaches: reaches(equations),
@@ -89,8 +92,8 @@ pub(crate) fn run<'l>(
         count: 0,
     };
     let finish = passes.all(observer);
-    let reached = passes.integrator.time();
-    let Passes { integrator, recorder, mut events, .. } = passes;
+    let reached = passes.engine.now.time();
+    let Passes { mut engine, recorder, mut events, .. } = passes;
     let termination = match finish {
         Ok(Finish::RanAway { tree, reach }) => ran_away(equations, tree, reach, reached),
         Ok(Finish::Chattered { connection }) => chattered(equations, connection, reached),
@@ -98,12 +101,13 @@ pub(crate) fn run<'l>(
         Ok(Finish::Interrupted) => termination(Ok(ode::Finish::Interrupted), reached)?,
         Err(error) => termination(Err(error), reached)?,
     };
-    let statistics = integrator.statistics();
-    let last = integrator.state().to_vec();
-    let mut motion = integrator.into_system();
-    events.pass_time(reached, &motion);
+    let statistics = engine.statistics();
+    let last = engine.now.state().to_vec();
+    let motion = engine.now.system_mut();
+    events.pass_time(reached, motion);
     Ok(Run {
-        energy: energy_balance(&mut motion, initial_energy, &last),
+        energy: energy_balance(motion, initial_energy, &last),
+        integrators: engine.used,
         recorder,
         events,
         steps: statistics.accepted as u64,
@@ -131,7 +135,7 @@ enum Finish {
 struct Passes<'r, 'l> {
     equations: &'l EquationsOfMotion,
     settings: &'r RunSettings,
-    integrator: Dop853<Motion<'l>>,
+    engine: Engine<'l>,
     recorder: Recorder<'l>,
     watch: Watch<'l>,
     reaches: Vec<(usize, f64)>,
@@ -152,10 +156,10 @@ impl Passes<'_, '_> {
         breaks.push(self.settings.duration);
         for (index, goal) in breaks.iter().copied().enumerate() {
             let mut at_once = 0;
-            while self.integrator.time() != goal {
-                let before = self.integrator.time();
+            while self.engine.now.time() != goal {
+                let before = self.engine.now.time();
                 if let Some(connection) = self.step(goal)? {
-                    let stood = self.integrator.time() - before <= 1e-13 * goal;
+                    let stood = self.engine.now.time() - before <= 1e-13 * goal;
                     at_once = if stood { at_once + 1 } else { 0 };
                     if at_once > MOST_AT_ONCE {
                         return Ok(Finish::Chattered { connection });
@@ -174,33 +178,34 @@ impl Passes<'_, '_> {
 
     /// One step, or what of it comes before the next event; gives the connection of that.
     fn step(&mut self, goal: f64) -> Result<Option<usize>, Error> {
-        self.integrator.step(goal)?;
-        let (from, to) = (self.integrator.previous_time(), self.integrator.time());
-        let passage = self.watch.first(&self.integrator.dense(), (from, to));
+        self.engine.adapt()?;
+        self.engine.now.step(goal)?;
+        let (from, to) = (self.engine.now.previous_time(), self.engine.now.time());
+        let passage = self.watch.first(&self.engine.now.dense(), (from, to));
         let passage = match passage {
-            Some(passage) => Some(self.watch.meet(&mut self.integrator, passage)?),
+            Some(passage) => Some(self.watch.meet(&mut *self.engine.now, passage)?),
             None => None,
         };
-        let to = self.integrator.time();
-        let dense = self.integrator.dense();
+        let to = self.engine.now.time();
+        let dense = self.engine.now.dense();
         if std::mem::take(&mut self.jumped) {
             self.recorder.jump(&dense, from);
         }
         self.recorder.step(&dense, from, to);
         let Some(passage) = passage else { return Ok(None) };
         let mut event = None;
-        self.integrator.restart_with(|motion, state| {
+        self.engine.now.restart_with(&mut |motion, state| {
             event = Some(motion.pass(passage.border, to, state));
         })?;
         if let Some(event) = event {
-            self.events.take(to, &event, self.integrator.system());
+            self.events.take(to, &event, self.engine.now.system());
         }
         self.follow_modes(to);
         Ok(Some(passage.border.connection))
     }
 
     fn follow_modes(&mut self, time: f64) {
-        let motion = self.integrator.system();
+        let motion = self.engine.now.system();
         if let Some(modes) = motion.modes() {
             self.watch.follow(modes, time);
         }
@@ -209,27 +214,27 @@ impl Passes<'_, '_> {
 
     /// Impulses and pulses that begin or end at a time.
     fn pass_break(&mut self, time: f64) -> Result<(), Error> {
-        self.integrator.restart_with(|motion, state| {
+        self.engine.now.restart_with(&mut |motion, state| {
             motion.apply_impulses(time, state);
             motion.switch_pulses(time);
             motion.choose_modes(time, state);
         })?;
         self.jumped = true;
-        self.events.pass_time(time, self.integrator.system());
+        self.events.pass_time(time, self.engine.now.system());
         self.follow_modes(time);
         Ok(())
     }
 
     /// Whether the run ends early.
     fn look_round(&mut self, observer: &dyn Observer) -> Option<Finish> {
-        let state = self.integrator.state();
+        let state = self.engine.now.state();
         let lost = self.reaches.iter().find(|(tree, reach)| state[*tree].abs() > *reach);
         if let Some((tree, reach)) = lost.copied() {
             return Some(Finish::RanAway { tree, reach });
         }
         self.count += 1;
         if self.count.is_multiple_of(LOOK_EVERY) {
-            observer.progress(self.integrator.time() / self.settings.duration);
+            observer.progress(self.engine.now.time() / self.settings.duration);
             if observer.cancelled() {
                 return Some(Finish::Interrupted);
             }

@@ -7,8 +7,7 @@ use std::sync::Arc;
 
 use halfshaft_dynamics::{Border, Modes, Motion};
 use halfshaft_numerics::bracket::{RootSettings, find_root};
-use halfshaft_numerics::ode::Stop;
-use halfshaft_numerics::ode::dop853::{DenseStep, Dop853};
+use halfshaft_numerics::ode::{DenseStep, OneStep, Stop};
 
 /// Parts of a step at whose ends borders are looked at.
 const PARTS: usize = 10;
@@ -152,7 +151,7 @@ impl<'l> Watch<'l> {
     /// Shortens the last step so that it ends on the border: the state there is one of full order.
     pub(super) fn meet(
         &mut self,
-        integrator: &mut Dop853<Motion<'l>>,
+        integrator: &mut dyn OneStep<System = Motion<'l>>,
         mut passage: Passage,
     ) -> Result<Passage, Stop> {
         let (from, to) = (integrator.previous_time(), integrator.time());
@@ -176,7 +175,11 @@ impl<'l> Watch<'l> {
     }
 
     /// Value and slope of a border at the end of the last step.
-    fn at_end(&mut self, integrator: &mut Dop853<Motion<'l>>, passage: Passage) -> (f64, f64) {
+    fn at_end(
+        &mut self,
+        integrator: &mut dyn OneStep<System = Motion<'l>>,
+        passage: Passage,
+    ) -> (f64, f64) {
         let (state, rate) = (integrator.state().to_vec(), integrator.rate().to_vec());
         let mut out = vec![(0.0, 0.0); self.borders.len()];
         self.motion.distances(passage.time, (&state, &rate), &self.borders, &mut out);

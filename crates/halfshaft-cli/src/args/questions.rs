@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use halfshaft::model::question::{DryFriction, ShockEquation, ShockMethod, Start};
+use halfshaft::model::question::{
+    DryFriction, IntegratorChoice, ShockEquation, ShockMethod, Start,
+};
 use halfshaft::{QuestionText, Verb};
 
 use super::common::Common;
@@ -143,6 +145,10 @@ pub struct Simulate {
     /// Dry friction: exact sticks and slides, smoothed is what harmonic balance takes [default: exact]
     #[arg(long, value_name = "WAY", value_parser = OneOf(&DryFriction::WORDS))]
     pub friction: Option<String>,
+    /// Which integrator; automatic goes over to an implicit one where the equations are stiff
+    /// [default: automatic]
+    #[arg(long, value_name = "METHOD", value_parser = OneOf(&IntegratorChoice::WORDS))]
+    pub integrator: Option<String>,
     /// Channel whose spectra over the orders are told [default: the torque of the first nonlinear shaft]
     #[arg(long, value_name = "CHANNEL")]
     pub orders: Option<String>,
@@ -277,6 +283,7 @@ impl Simulate {
             rate: self.rate.clone(),
             friction: self.friction.clone(),
             orders: self.orders.clone(),
+            integrator: self.integrator.clone(),
             step: self.step.clone(),
             tolerance: self.tolerance.clone(),
             record: self.record.clone(),

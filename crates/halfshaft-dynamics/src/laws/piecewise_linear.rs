@@ -55,6 +55,16 @@ impl PiecewiseLinearLaw {
         Self { kinks, pieces, middle }
     }
 
+    /// Stage and side of a piece by ascending twist: the stage counted from zero twist outwards, from 1, and
+    /// whether it is of the drive side (positive twist), as is a piece of both sides.
+    pub fn stage(&self, piece: usize) -> (usize, bool) {
+        if piece >= self.middle {
+            return (piece - self.middle + 1, true);
+        }
+        let joint = !self.kinks.contains(&0.0);
+        (self.middle - piece + usize::from(joint), false)
+    }
+
     /// Stiffness of the pieces by ascending twist, N·m/rad.
     pub fn stiffnesses(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         self.pieces.iter().map(|piece| piece.stiffness)

@@ -130,6 +130,33 @@ impl DryFriction {
     pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
 }
 
+/// Which integrator takes the steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum IntegratorChoice {
+    /// The explicit one of order 8, an implicit one from where the equations are stiff.
+    #[default]
+    Automatic,
+    /// Dormand and Prince, order 8.
+    Dop853,
+    /// Dormand and Prince, order 5.
+    Dopri5,
+    /// Radau IIA, order 5, implicit.
+    Radau5,
+}
+
+impl IntegratorChoice {
+    /// All choices with their names.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("automatic", Self::Automatic),
+        ("dop853", Self::Dop853),
+        ("dopri5", Self::Dopri5),
+        ("radau5", Self::Radau5),
+    ];
+    /// The names alone.
+    pub const WORDS: [&'static str; Self::ALL.len()] = words(&Self::ALL);
+}
+
 // What a question leaves at its default is not among the settings that answers list.
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
@@ -138,6 +165,11 @@ fn is_zero(value: &f64) -> bool {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
 fn is_exact(friction: &DryFriction) -> bool {
     *friction == DryFriction::Exact
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
+fn is_automatic(choice: &IntegratorChoice) -> bool {
+    *choice == IntegratorChoice::Automatic
 }
 
 /// Settings of `simulate`.
@@ -160,6 +192,9 @@ pub struct SimulateQuestion {
     /// Whether dry friction sticks and slides exactly, or is smoothed.
     #[serde(skip_serializing_if = "is_exact")]
     pub friction: DryFriction,
+    /// Which integrator takes the steps.
+    #[serde(skip_serializing_if = "is_automatic")]
+    pub integrator: IntegratorChoice,
     /// Output step, s; `None` for a two-thousandth of what is recorded.
     pub step: Option<f64>,
     /// Relative tolerance of the integration.
@@ -178,6 +213,7 @@ impl Default for SimulateQuestion {
             acceleration: 0.0,
             friction: DryFriction::Exact,
             orders: None,
+            integrator: IntegratorChoice::Automatic,
             step: None,
             tolerance: 1e-10,
             record: None,

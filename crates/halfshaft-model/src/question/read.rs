@@ -2,8 +2,8 @@
 
 use super::channel::parse_channel;
 use super::kinds::{
-    DryFriction, ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion,
-    SimulateQuestion, Verb,
+    DryFriction, IntegratorChoice, ModesQuestion, Question, ShockEquation, ShockMethod,
+    ShockQuestion, SimulateQuestion, Verb,
 };
 use super::text::{OptionError, QuestionText};
 use super::values::Reader;
@@ -68,6 +68,9 @@ impl Reader<'_> {
                 _ => 0.0,
             },
             orders: self.order_channel(),
+            integrator: self
+                .choice("integrator", text.integrator.as_deref(), &IntegratorChoice::ALL)
+                .unwrap_or_default(),
             friction: self
                 .choice("friction", text.friction.as_deref(), &DryFriction::ALL)
                 .unwrap_or_default(),

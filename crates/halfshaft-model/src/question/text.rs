@@ -54,6 +54,8 @@ pub struct QuestionText {
     pub periods: Option<String>,
     /// `--rate`.
     pub rate: Option<String>,
+    /// `--integrator`.
+    pub integrator: Option<String>,
     /// `--orders`.
     pub orders: Option<String>,
     /// `--friction`.

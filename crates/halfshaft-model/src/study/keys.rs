@@ -43,6 +43,7 @@ pub static QUESTION: TableSpec = TableSpec {
         option("rate", "As --rate."),
         option("friction", "As --friction."),
         option("orders", "As --orders."),
+        option("integrator", "As --integrator."),
         KeySpec::new("backbone", ValueSpec::Flag, "As --backbone."),
         KeySpec::new("printed-velocity", ValueSpec::Flag, "As --printed-velocity."),
         KeySpec::new("verify", ValueSpec::Flag, "As --verify."),

@@ -347,6 +347,7 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         rate: option("rate"),
         friction: option("friction"),
         orders: option("orders"),
+        integrator: option("integrator"),
     }
 }
 

@@ -103,9 +103,10 @@ fn to_hessenberg(rows: &mut Rows, order: usize) {
         // Beyond the order the vector is zero, but rows and columns there must exist.
         let Some(reflection) = Reflection::of(x) else { continue };
         let count = order - column - 1;
+        let below = &mut rows[column + 1..order];
         for at in column..order {
-            let sum: f64 = (0..count).map(|k| reflection.w[k] * rows[column + 1 + k][at]).sum();
-            (0..count).for_each(|k| rows[column + 1 + k][at] -= reflection.v[k] * sum);
+            let sum: f64 = reflection.w.iter().zip(&*below).map(|(w, row)| w * row[at]).sum();
+            below.iter_mut().zip(&reflection.v).for_each(|(row, v)| row[at] -= v * sum);
         }
         for row in &mut rows[..order] {
             let sum: f64 = (0..count).map(|k| reflection.w[k] * row[column + 1 + k]).sum();

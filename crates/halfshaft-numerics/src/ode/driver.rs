@@ -2,8 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::System;
-use super::dop853::{DenseStep, Dop853};
+use super::{DenseStep, OneStep};
 use crate::error::{Error, all_finite};
 
 /// How an integration came to its end.
@@ -17,11 +16,11 @@ pub enum Finish {
 
 /// A step that has just been accepted, as shown to an observer.
 #[derive(Debug)]
-pub struct AcceptedStep<'a, S> {
-    integrator: &'a mut Dop853<S>,
+pub struct AcceptedStep<'a, I: ?Sized> {
+    integrator: &'a mut I,
 }
 
-impl<S: System> AcceptedStep<'_, S> {
+impl<I: OneStep + ?Sized> AcceptedStep<'_, I> {
     /// The time at the start of the step.
     pub fn previous_time(&self) -> f64 {
         self.integrator.previous_time()
@@ -48,7 +47,7 @@ impl<S: System> AcceptedStep<'_, S> {
     }
 
     /// The system.
-    pub fn system(&self) -> &S {
+    pub fn system(&self) -> &I::System {
         self.integrator.system()
     }
 
@@ -74,12 +73,12 @@ impl<S: System> AcceptedStep<'_, S> {
 /// [`Error::BreaksNotOrdered`], [`Error::NonFinite`] if a break leaves such a state, and
 /// [`Error::Stopped`] if a step could not be taken; the integrator then still holds what was
 /// reached.
-pub fn integrate<S: System>(
-    integrator: &mut Dop853<S>,
+pub fn integrate<I: OneStep + ?Sized>(
+    integrator: &mut I,
     t_end: f64,
     breaks: &[f64],
-    mut at_break: impl FnMut(f64, &mut S, &mut [f64]),
-    mut observe: impl FnMut(AcceptedStep<'_, S>) -> ControlFlow<()>,
+    mut at_break: impl FnMut(f64, &mut I::System, &mut [f64]),
+    mut observe: impl FnMut(AcceptedStep<'_, I>) -> ControlFlow<()>,
 ) -> Result<Finish, Error> {
     let direction = if t_end < integrator.time() { -1.0 } else { 1.0 };
     check_order(breaks, direction)?;
@@ -93,15 +92,15 @@ pub fn integrate<S: System>(
         if run_to(integrator, time, &mut observe)? == Finish::Interrupted {
             return Ok(Finish::Interrupted);
         }
-        integrator.restart_with(|system, state| at_break(time, system, state))?;
+        integrator.restart_with(&mut |system, state| at_break(time, system, state))?;
     }
     run_to(integrator, t_end, &mut observe)
 }
 
-fn run_to<S: System>(
-    integrator: &mut Dop853<S>,
+fn run_to<I: OneStep + ?Sized>(
+    integrator: &mut I,
     goal: f64,
-    observe: &mut impl FnMut(AcceptedStep<'_, S>) -> ControlFlow<()>,
+    observe: &mut impl FnMut(AcceptedStep<'_, I>) -> ControlFlow<()>,
 ) -> Result<Finish, Error> {
     while integrator.time() != goal {
         integrator.step(goal)?;

@@ -1,18 +1,41 @@
 //! Time integration of ordinary differential equations `y' = f(t, y)`.
 //!
-//! - [`System`] is what can be integrated, [`Linearised`] adds its Jacobian-vector products;
-//! - [`dop853::Dop853`] takes one accepted step after another, with dense output on demand;
-//! - [`integrate`] runs it to an end through break times and shows every step to an observer;
+//! - [`System`] is what can be integrated, [`Linearised`] adds its Jacobian-vector products,
+//!   [`Differentiated`] the whole Jacobian;
+//! - [`OneStep`] is what takes one accepted step after another, with dense output on demand:
+//!   [`dop853::Dop853`] for fine and [`dopri5::Dopri5`] for coarse tolerances,
+//!   [`radau5::Radau5`] for stiff systems;
+//! - [`integrate`] runs any of them to an end through break times and shows every step to an
+//!   observer;
 //! - [`periodic`] finds periodic orbits and their Floquet multipliers by shooting.
 
+mod access;
+mod control;
+mod dense_step;
+mod differentiated;
 pub mod dop853;
+pub mod dopri5;
 mod driver;
+mod first_step;
+mod integrator;
+mod lanes;
+mod method;
+mod norm;
+mod one_step;
 pub mod periodic;
+pub mod radau5;
+mod retake;
 mod settings;
+mod slopes;
+mod stiffness;
 mod stop;
 mod variational;
 
+pub use dense_step::DenseStep;
+pub use differentiated::{ByColumns, ByDifferences, Differentiated};
 pub use driver::{AcceptedStep, Finish, integrate};
+pub use integrator::Integrator;
+pub use one_step::{OneStep, Statistics, Step};
 pub(crate) use settings::check_tolerances;
 pub use settings::{Settings, Tolerance};
 pub use stop::Stop;

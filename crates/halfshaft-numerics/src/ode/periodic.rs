@@ -8,8 +8,8 @@
 
 use std::cell::RefCell;
 
-use super::dop853::{Dop853, Statistics, Step};
-use super::{Linearised, Settings, System, Variational};
+use super::dop853::Dop853;
+use super::{Linearised, Settings, Statistics, Step, System, Variational};
 use crate::complex::Complex;
 use crate::dense::{Matrix, eigenvalues};
 use crate::error::{Error, all_finite, has_length};

@@ -28,4 +28,14 @@ pub enum Stop {
         /// Time of the last accepted state.
         time: f64,
     },
+    /// A step cannot be taken again to a time outside it.
+    #[error("t = {end} is not inside the last step, from {start} to {time}")]
+    OutsideStep {
+        /// Where the step began.
+        start: f64,
+        /// Where it ended.
+        time: f64,
+        /// The time that was asked for.
+        end: f64,
+    },
 }

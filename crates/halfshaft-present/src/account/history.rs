@@ -136,6 +136,15 @@ fn extremes_of(metrics: &ChannelMetrics) -> [String; 4] {
 pub(crate) fn trust(result: &HistoryResult) -> Vec<String> {
     let metrics = &result.metrics;
     let mut sentences: Vec<String> = metrics.energy_balance.iter().map(energy).collect();
+    if let [first, .., last] = metrics.integrators.as_slice() {
+        sentences.push(format!(
+            "Integrated by {} and from {} on by {}: {}.",
+            first.method,
+            quantity(last.from, 4, "s"),
+            last.method,
+            last.why
+        ));
+    }
     if metrics.steps > 0 {
         sentences.push(format!(
             "The integration took {} steps and {} evaluations of the equations.",

@@ -4,7 +4,9 @@
 use halfshaft_results::{HistoryResult, OrderMap};
 
 use super::axes::{column_axis, name, speed_axis};
-use crate::figure::{Axis, Colour, Curve, Figure, Marker, Panel, Points, Region, Size};
+use crate::figure::{
+    Axis, Colour, Curve, Figure, LegendPlace, Marker, Panel, Points, Region, Size,
+};
 use crate::words::{capital, column_label, number, plain, short};
 
 const WATERFALL: &str = "waterfall";
@@ -61,6 +63,8 @@ fn waterfall(map: &OrderMap) -> Figure {
         }
         above = from;
     }
+    // Every corner of the picture may hold something.
+    panel = panel.with_legend(LegendPlace::Below);
     let title = format!("Orders of the {}", short(&column_label(&map.channel), 50));
     Figure::new(WATERFALL, title)
         .with_caption("Amplitude over the orders of the excitation at every speed of the run.")

@@ -7,8 +7,7 @@
 //!
 //! A row lists only the coefficients that are not zero, each with its stage.
 
-/// A stage and its coefficient.
-pub(crate) type Term = (usize, f64);
+pub(crate) use crate::ode::lanes::Term;
 
 /// Stages of a step with dense output.
 pub(crate) const STAGES: usize = 16;

@@ -4,16 +4,14 @@
 //! derivatives side by side. Vectors are padded with zeros to whole groups, so loops have no tails,
 //! and the compiler turns each group into one vector register.
 
-use super::tableau::{STAGES, Term};
+/// A stage and its coefficient.
+pub(crate) type Term = (usize, f64);
 
 /// Components in a group.
 pub(super) const WIDTH: usize = 2;
 
 /// A group of components.
 pub(super) type Lanes = [f64; WIDTH];
-
-/// The derivatives of a group at all stages of a step.
-pub(super) type Slopes = [Lanes; STAGES];
 
 /// Length of a vector of `dimension` components, padded to whole groups.
 pub(super) fn padded(dimension: usize) -> usize {
@@ -44,7 +42,10 @@ pub(super) fn groups_mut(vector: &mut [f64]) -> &mut [Lanes] {
 /// The newest stage comes last in every row: the processor then adds up all others while that one
 /// is still being computed.
 #[inline(always)]
-pub(super) fn weighted<const N: usize>(slopes: &Slopes, row: &[Term; N]) -> Lanes {
+pub(super) fn weighted<const STAGES: usize, const N: usize>(
+    slopes: &[Lanes; STAGES],
+    row: &[Term; N],
+) -> Lanes {
     let (stage, weight) = row[0];
     let mut sum = slopes[stage].map(|slope| weight * slope);
     for &(stage, weight) in &row[1..] {

@@ -14,6 +14,8 @@ pub(super) struct Start<'a> {
     pub(super) time: f64,
     pub(super) state: &'a [f64],
     pub(super) rate: &'a [f64],
+    /// The power of the step length with which the method's error falls.
+    pub(super) power: u32,
 }
 
 /// A first step, without sign, such that its error is a small share of the tolerance if the second
@@ -47,7 +49,7 @@ pub(super) fn guess<S: System>(
     let longer = if fastest <= 1e-15 {
         SMALL_STEP.max(1e-3 * short)
     } else {
-        (0.01 / fastest).powf(1.0 / 8.0)
+        (0.01 / fastest).powf(1.0 / f64::from(start.power))
     };
     // A bending that is not finite leaves the short step; the error control shortens it further.
     let guess = if longer.is_nan() { short } else { (100.0 * short).min(longer) };

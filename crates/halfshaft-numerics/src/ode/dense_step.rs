@@ -1,47 +1,22 @@
-//! The solution inside a step, to order 7 (Hairer et al., section II.6).
+//! The solution inside a step, as a polynomial that every method fills in.
 
-use super::lanes::{Lanes, Slopes, WIDTH, groups, weighted};
-use super::stages::Span;
-use super::tableau::{D4, D5, D6, D7};
+use super::lanes::{Lanes, WIDTH};
 
 /// Coefficients of the polynomial for one group of components.
-pub(super) type Coefficients = [Lanes; 8];
+pub type Coefficients = [Lanes; 8];
 
-/// Writes the coefficients for every group. States are padded.
-pub(super) fn write_coefficients(
-    coefficients: &mut [Coefficients],
-    slopes: &[Slopes],
-    length: f64,
-    start: &[f64],
-    end: &[f64],
-) {
-    for (((all, slopes), start), end) in
-        coefficients.iter_mut().zip(slopes).zip(groups(start)).zip(groups(end))
-    {
-        let high = [
-            weighted(slopes, &D4),
-            weighted(slopes, &D5),
-            weighted(slopes, &D6),
-            weighted(slopes, &D7),
-        ];
-        for lane in 0..WIDTH {
-            let change = end[lane] - start[lane];
-            let at_start = length * slopes[0][lane] - change;
-            let at_end = change - length * slopes[12][lane] - at_start;
-            let low = [start[lane], change, at_start, at_end];
-            for (k, value) in low.into_iter().enumerate() {
-                all[k][lane] = value;
-                all[k + 4][lane] = length * high[k][lane];
-            }
-        }
-    }
+/// The start and the length of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    pub(super) start: f64,
+    pub(super) length: f64,
 }
 
 /// The solution inside the last accepted step.
 ///
 /// With `s = (t - start) / length` it is
 /// `c0 + s (c1 + (1-s) (c2 + s (c3 + (1-s) (c4 + s (c5 + (1-s) (c6 + s c7))))))`.
-/// Outside the step it extrapolates.
+/// with the last ones zero for methods of lower order. Outside the step it extrapolates.
 #[derive(Debug, Clone, Copy)]
 pub struct DenseStep<'a> {
     pub(super) coefficients: &'a [Coefficients],
