@@ -44,6 +44,9 @@ fuzz_target!(|text: &str| {
         window: same(),
         shaft: same(),
         periods: same(),
+        steps: same(),
+        transient: same(),
+        direction: same(),
         ..QuestionText::default()
     };
     for (_, verb) in Verb::ALL {

@@ -9,8 +9,8 @@ pub struct QuestionText {
     pub initial: Vec<String>,
     /// `--start`.
     pub start: Option<String>,
-    /// `--frequency`: one speed for `simulate`, `basins` and beside a `--parameter` of `resonance`, a range for
-    /// the others.
+    /// `--frequency`: one speed for `simulate`, `basins` and beside a `--parameter` of `resonance` and
+    /// `bifurcation`, a range for the others.
     pub frequency: Option<String>,
     /// `--step`.
     pub step: Option<String>,
@@ -52,6 +52,14 @@ pub struct QuestionText {
     pub shaft: Option<String>,
     /// `--periods`.
     pub periods: Option<String>,
+    /// `--steps`.
+    pub steps: Option<String>,
+    /// `--transient`.
+    pub transient: Option<String>,
+    /// `--direction`.
+    pub direction: Option<String>,
+    /// `--no-branches`.
+    pub no_branches: bool,
 }
 
 /// What is wrong with one option.

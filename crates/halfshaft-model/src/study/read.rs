@@ -344,6 +344,10 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         window: option("window"),
         shaft: option("shaft"),
         periods: option("periods"),
+        steps: option("steps"),
+        transient: option("transient"),
+        direction: option("direction"),
+        no_branches: table.flag("no-branches"),
     }
 }
 
