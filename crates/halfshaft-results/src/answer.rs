@@ -4,8 +4,8 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::{
-    BasinsResult, BifurcationResult, CheckResult, Column, FoldsResult, Header, HistoryResult, ModesResult, Named,
-    ReportResult, ResonanceResult, StaticResult, StudyResult, Table,
+    BasinsResult, BifurcationResult, CheckResult, Column, FoldsResult, Header, HistoryResult,
+    ModesResult, Named, ReportResult, ResonanceResult, StaticResult, StudyResult, Table,
 };
 
 /// Any result; which one, its `analysis` says.

@@ -143,12 +143,7 @@ fn write(result: &mut BifurcationResult, family: &Family<'_>, rows: &[Row]) {
 const SETTLED: f64 = 3.0;
 
 /// What the reader must know of the answer.
-fn tell(
-    result: &mut BifurcationResult,
-    question: &BifurcationQuestion,
-    rows: &[Row],
-    whole: bool,
-) {
+fn tell(result: &mut BifurcationResult, question: &BifurcationQuestion, rows: &[Row], whole: bool) {
     result.header.assumptions.push(
         "each motion goes on from the end of that at the value before; the first begins at rest, and so \
          does the one after a motion that ran away"

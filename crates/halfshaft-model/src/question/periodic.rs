@@ -129,11 +129,7 @@ impl Reader<'_> {
 
     /// The parameter that responses are followed in at one speed; `what` they are, in words.
     pub(super) fn swept(&mut self, what: &'static str) -> Option<ParameterRange> {
-        self.parameter(&Sweep {
-            what,
-            coefficients: false,
-            orders: Orders::All,
-        })
+        self.parameter(&Sweep { what, coefficients: false, orders: Orders::All })
     }
 
     /// A range of speeds; where one speed stands there, what it would be good for is told.
