@@ -23,6 +23,8 @@ pub(super) struct Repeats {
     pub(super) within: f64,
     /// Changes that are no more than the error of the integration, relative.
     pub(super) error: f64,
+    /// States of an orbit this near to each other, relative, are one.
+    pub(super) same: f64,
 }
 
 impl History {
@@ -46,14 +48,17 @@ impl History {
     /// is that of a geometric series whose ratio the last two repetitions give.
     pub(super) fn period(&self, repeats: Repeats) -> Option<usize> {
         let size = self.states.iter().map(|(_, size)| *size).fold(0.0, f64::max);
-        (1..=MOST_PERIODS).find(|p| {
+        let found = (1..=MOST_PERIODS).find(|p| {
             let (Some(late), Some(early)) = (self.change(0, *p), self.change(*p, *p)) else {
                 return false;
             };
             let ratio = late / early;
             let left = if ratio < 1.0 { late * ratio / (1.0 - ratio) } else { f64::INFINITY };
             late <= repeats.error * size || left <= repeats.within * size
-        })
+        })?;
+        // Complex multipliers turn the changes, so that those over several periods may look small first.
+        let one = |p: &usize| self.change(0, *p).is_some_and(|late| late <= repeats.same * size);
+        Some((1..found).find(one).unwrap_or(found))
     }
 
     /// The larger of two neighbouring changes over `p` periods, `ago` periods back: of one alone the
@@ -71,7 +76,7 @@ impl History {
 mod tests {
     use super::{History, Repeats};
 
-    const REPEATS: Repeats = Repeats { within: 1e-6, error: 1e-12 };
+    const REPEATS: Repeats = Repeats { within: 1e-6, error: 1e-12, same: 1e-4 };
 
     fn after(count: i32, of: impl Fn(i32) -> f64) -> Option<usize> {
         let mut history = History::default();
@@ -90,6 +95,8 @@ mod tests {
         assert_eq!(after(60, |n| f64::from(n % 7)), Some(7));
         // Changes of less than 1e-6 of a motion that still has 5e-4 to go.
         assert_eq!(after(400, |n| 0.999_f64.powi(7000 + n)), None);
+        // A spiral into a fixed point, whose changes over 6 periods are the first to vanish.
+        assert_eq!(after(90, |n| 0.8_f64.powi(n) * (1.05 * f64::from(n)).cos()), Some(1));
         // An irrational rotation, and growth.
         assert_eq!(after(60, |n| (1.234_567 * f64::from(n)).cos()), None);
         assert_eq!(after(60, |n| 1e-9 * 1.1_f64.powi(n)), None);

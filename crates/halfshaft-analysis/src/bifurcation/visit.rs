@@ -39,6 +39,9 @@ pub(super) struct Limits {
 /// time for settling.
 const CLOSE: f64 = 1e-8;
 const CLOSE_AT_LAST: f64 = 1e-3;
+/// States of an orbit that are told apart are further than this from each other, relative.
+const SAME: f64 = 1e-4;
+const SAME_AT_LAST: f64 = 1e-2;
 /// Errors of steps add up over a period to about this many times one of them.
 const STEPS: f64 = 10.0;
 /// Multipliers beyond 1 by more than this grow.
@@ -75,7 +78,7 @@ pub(super) fn visit(
         strobe,
     };
     let error = STEPS * limits.tolerance;
-    let repeats = Repeats { within: CLOSE.max(error), error };
+    let repeats = Repeats { within: CLOSE.max(error), error, same: SAME };
     for settling in 0..limits.transient {
         if observer.cancelled() {
             return Err(Ended::Cancelled);
@@ -91,7 +94,11 @@ pub(super) fn visit(
             return Ok(cycle);
         }
     }
-    motion.record(limits.points, Repeats { within: CLOSE_AT_LAST, error }, observer)
+    motion.record(
+        limits.points,
+        Repeats { within: CLOSE_AT_LAST, error, same: SAME_AT_LAST },
+        observer,
+    )
 }
 
 impl Following<'_, '_> {

@@ -13,13 +13,15 @@ pub(crate) const ID: &str = "bifurcation";
 /// Points of one direction that are drawn at most: more of them would not be seen, but make the picture
 /// heavy.
 const MOST_POINTS: usize = 40_000;
-/// Diameter of a point, in points.
-const SMALL: f64 = 1.8;
-const RING: f64 = 3.6;
+/// Diameters of the points of few and of many, in points: discs up, rings around them down.
+const FEW: (f64, f64) = (2.8, 5.0);
+const MANY: (f64, f64) = (1.4, 2.0);
+/// From so many points of a direction on they are many.
+const CROWD: usize = 2000;
 
 /// The sweeps with their names, colours and marks.
 const SWEEPS: [(f64, &str, Colour); 2] =
-    [(-1.0, "sweeping down", Colour::DANGER), (1.0, "sweeping up", Colour::PRIMARY)];
+    [(-1.0, "sweeping down", Colour::Orange), (1.0, "sweeping up", Colour::PRIMARY)];
 
 /// The figure.
 pub(crate) fn figure(result: &BifurcationResult) -> Figure {
@@ -64,16 +66,20 @@ fn diagram(result: &BifurcationResult) -> Panel {
         result.branches.iter().flat_map(|branch| &branch.special_points).collect::<Vec<_>>();
     let twist = result.twist();
     let marked = marks::marked(&special, (&result.swept, &twist), |_, _| String::new());
-    panel.with_all(marked.into_iter().map(|points| Item::from(points.hollow())))
+    let plain = |points: Points| Points { colour: Colour::Black, ..points.hollow() };
+    panel.with_all(marked.into_iter().map(plain).map(Item::from))
 }
 
 /// Points of one direction: small discs up, rings around them down, so that both are seen.
 fn dots(way: f64, label: &str, colour: Colour, (x, y): (Vec<f64>, Vec<f64>)) -> Points {
+    let many = x.len() > CROWD;
+    let (disc, ring) = if many { MANY } else { FEW };
     let points = Points::new(label, x, y, colour).with_marker(Marker::Circle);
-    if way > 0.0 {
-        Points { size: SMALL, ..points }
-    } else {
-        Points { size: RING, ..points.hollow() }
+    match (way > 0.0, many) {
+        (true, _) => Points { size: disc, ..points },
+        // Rings of so little width would only be heavy.
+        (false, true) => Points { size: ring, ..points },
+        (false, false) => Points { size: ring, ..points.hollow() },
     }
 }
 
@@ -86,7 +92,7 @@ fn drawn(result: &BifurcationResult, branch: &StrobedBranch) -> Vec<Curve> {
         let number = if period == 1 { String::new() } else { format!(".{period}") };
         let y = branch.values(&format!("{}{number}", result.twist()));
         let samples = Samples { x: x.to_vec(), y: y.to_vec(), stable: stable.clone() }.smoothed();
-        let label = "response by harmonic balance";
+        let label = "response by continuation";
         let own =
             Curve::by_stability(label, &samples.x, &samples.y, &samples.stable, Colour::AUXILIARY);
         curves.extend(own.into_iter().map(|curve| curve.with_width(1.0)));
@@ -95,16 +101,18 @@ fn drawn(result: &BifurcationResult, branch: &StrobedBranch) -> Vec<Curve> {
 }
 
 fn exponents(result: &BifurcationResult) -> Panel {
-    let y = Axis::new("Largest Lyapunov exponent", "1/s");
+    let y = Axis::new("Lyapunov exponent", "1/s");
     let mut panel = Panel::new(abscissa(result), y).with(level(0.0, ""));
     panel.height_share = 0.5;
+    // The one beneath is wider, so that both are seen where they agree.
+    let width = |way: f64| if way > 0.0 { 1.0 } else { 2.6 };
     let [x, direction, exponent] =
         [&result.swept, "direction", "lyapunov_exponent"].map(|name| result.values.values(name));
     for (own, label, colour) in SWEEPS {
         let rows = x.iter().zip(exponent).zip(direction).filter(|(_, way)| **way == own);
         let (xs, ys): (Vec<f64>, Vec<f64>) = rows.map(|((x, y), _)| (*x, *y)).unzip();
         if !xs.is_empty() {
-            panel = panel.with(Curve::new(label, xs, ys, colour).with_width(1.0).unlisted());
+            panel = panel.with(Curve::new(label, xs, ys, colour).with_width(width(own)).unlisted());
         }
     }
     panel
