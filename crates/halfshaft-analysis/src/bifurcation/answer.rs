@@ -139,9 +139,6 @@ fn write(result: &mut BifurcationResult, family: &Family<'_>, rows: &[Row]) {
     ]);
 }
 
-/// Exponents of a motion that has settled vary by about this over the recorded time.
-const SETTLED: f64 = 3.0;
-
 /// What the reader must know of the answer.
 fn tell(result: &mut BifurcationResult, question: &BifurcationQuestion, rows: &[Row], whole: bool) {
     result.header.assumptions.push(
@@ -161,13 +158,7 @@ fn tell(result: &mut BifurcationResult, question: &BifurcationQuestion, rows: &[
         ended(Ended::Chattering),
         "a contact opens and closes too often for the motion to be followed".to_owned(),
     );
-    let creeps = |row: &Row| {
-        let Ok(seen) = &row.seen else { return false };
-        // Neighbouring motions come together, so that this one is still on its way to an orbit.
-        let left = seen.exponents.0 * seen.followed.min(question.points) as f64;
-        seen.period.is_none() && left * std::f64::consts::TAU < -SETTLED * speed(result, row)
-    };
-    let creeping = count(&creeps);
+    let creeping = count(&|row| row.seen.as_ref().is_ok_and(|seen| seen.settling));
     if creeping > 0 {
         result.header.warnings.push(format!(
             "at {creeping} values the motion was still settling after {} periods, though neighbouring \
@@ -182,9 +173,4 @@ fn tell(result: &mut BifurcationResult, question: &BifurcationQuestion, rows: &[
         };
         result.header.termination = Termination::early(Reason::Cancelled, detail);
     }
-}
-
-/// Excitation speed of a row, rad/s.
-fn speed(result: &BifurcationResult, row: &Row) -> f64 {
-    result.frequency.unwrap_or(row.value)
 }

@@ -18,6 +18,8 @@ pub(super) struct Visit {
     pub(super) exponents: (f64, f64),
     /// Half of peak to peak of the twist, rad.
     pub(super) amplitude: f64,
+    /// Whether it does not repeat though neighbouring motions come together: it was still on its way.
+    pub(super) settling: bool,
     /// Periods that were followed.
     pub(super) followed: usize,
     /// The state from which the next value goes on.
@@ -49,6 +51,8 @@ const UNSTABLE: f64 = 1e-6;
 /// An orbit that repeats though it is not stable is left by this push, relative: on a mirror symmetry, say,
 /// a computed motion stays where no real one would.
 const PUSH: f64 = 1e-4;
+/// Distances that shrink over the recorded time by more than e to this do so steadily.
+const SETTLING: f64 = 3.0;
 /// Periods before the recorded ones in which variations turn into their own directions.
 const ALIGNED: usize = 32;
 
@@ -149,6 +153,7 @@ impl Following<'_, '_> {
             states: self.history.last(period),
             exponents: (largest.ln() / (period as f64 * self.strobe.period), sum),
             amplitude: self.amplitude(),
+            settling: false,
             followed: self.followed,
             end: self.state.clone(),
         }))
@@ -184,6 +189,7 @@ impl Following<'_, '_> {
             states.push(self.state.clone());
         }
         let mut exponents = self.exponents.rates(self.strobe.period);
+        let time = points as f64 * self.strobe.period;
         let period = self.history.period(repeats);
         let period = period.filter(|period| exponents.0 < 0.0 && *period <= points);
         if let Some(period) = period {
@@ -197,6 +203,7 @@ impl Following<'_, '_> {
             states,
             exponents,
             amplitude: self.amplitude(),
+            settling: period.is_none() && exponents.0 * time < -SETTLING,
             followed: self.followed,
             end: self.state.clone(),
         })

@@ -19,7 +19,7 @@ pub(crate) fn account(result: &BifurcationResult) -> Account {
         let own: Vec<&Stretch> = stretches.iter().filter(|s| s.direction == direction).collect();
         account.text(told(result, way, &own));
     }
-    account.text(result.jumps.iter().map(|jump| jumped(result, jump)));
+    account.text(jumps(result));
     account.text(matched(result));
     account.figure(crate::figures::bifurcation::ID);
     account.grid(table(result, &stretches));
@@ -170,6 +170,16 @@ fn told(result: &BifurcationResult, way: &str, own: &[&Stretch]) -> Vec<String> 
         let exponent = quantity(stretch.largest, 4, "1/s");
         format!("Largest Lyapunov exponent {exponent} at {}.", value(result, stretch.at))
     }));
+    sentences
+}
+
+/// The jumps, where they are few: about chaos there are many, and the figure shows them.
+fn jumps(result: &BifurcationResult) -> Vec<String> {
+    let mut sentences: Vec<String> =
+        result.jumps.iter().take(MOST_TOLD).map(|jump| jumped(result, jump)).collect();
+    if result.jumps.len() > MOST_TOLD {
+        sentences.push(format!("It jumps {} times more.", result.jumps.len() - MOST_TOLD));
+    }
     sentences
 }
 
