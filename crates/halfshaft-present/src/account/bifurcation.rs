@@ -216,7 +216,10 @@ fn matched(result: &BifurcationResult) -> Vec<String> {
         counted(repeating, "motion", "motions")
     );
     if !missing.is_empty() {
-        text += &format!("; no branch has the others, of {}", list(&missing));
+        text += &format!(
+            "; the others, of {}, are still settling or on a response that it does not list",
+            list(&missing)
+        );
     }
     vec![text + "."]
 }

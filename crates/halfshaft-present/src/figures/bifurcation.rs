@@ -15,7 +15,9 @@ pub(crate) const ID: &str = "bifurcation";
 const MOST_POINTS: usize = 40_000;
 /// Diameters of the points of few and of many, in points: discs up, rings around them down.
 const FEW: (f64, f64) = (2.8, 5.0);
-const MANY: (f64, f64) = (1.4, 2.0);
+const MANY: (f64, f64) = (2.0, 2.6);
+/// Special points that are marked at most: more of them would hide the motions.
+const MOST_MARKED: usize = 16;
 /// From so many points of a direction on they are many.
 const CROWD: usize = 2000;
 
@@ -64,6 +66,9 @@ fn diagram(result: &BifurcationResult) -> Panel {
     }
     let special =
         result.branches.iter().flat_map(|branch| &branch.special_points).collect::<Vec<_>>();
+    if special.len() > MOST_MARKED {
+        return panel;
+    }
     let twist = result.twist();
     let marked = marks::marked(&special, (&result.swept, &twist), |_, _| String::new());
     let plain = |points: Points| Points { colour: Colour::Black, ..points.hollow() };
@@ -95,7 +100,7 @@ fn drawn(result: &BifurcationResult, branch: &StrobedBranch) -> Vec<Curve> {
         let label = "response by continuation";
         let own =
             Curve::by_stability(label, &samples.x, &samples.y, &samples.stable, Colour::AUXILIARY);
-        curves.extend(own.into_iter().map(|curve| curve.with_width(1.0)));
+        curves.extend(own.into_iter().map(|curve| curve.with_width(0.8)));
     }
     curves
 }
