@@ -96,6 +96,9 @@ fn drawn(result: &BifurcationResult, branch: &StrobedBranch) -> Vec<Curve> {
     for period in 1..=branch.periods.max(1) {
         let number = if period == 1 { String::new() } else { format!(".{period}") };
         let y = branch.values(&format!("{}{number}", result.twist()));
+        if y.is_empty() {
+            break;
+        }
         let samples = Samples { x: x.to_vec(), y: y.to_vec(), stable: stable.clone() }.smoothed();
         let label = "response by continuation";
         let own =
