@@ -109,7 +109,7 @@ pub enum Ask {
     /// branch of `resonance` that it lies on.
     #[command(after_help = "Examples:
   halfshaft bifurcation my-line.toml --frequency 3Hz..5Hz --out diagram.png
-  halfshaft bifurcation --frequency 4.1Hz --parameter \"engine torque.amplitude=0..9000\"
+  halfshaft bifurcation --frequency 4.1Hz --parameter \"engine torque.amplitude=0..800\"
   halfshaft bifurcation my-line.toml --frequency 20rad/s..30rad/s --direction up --steps 1000")]
     Bifurcation(Bifurcation),
 }
