@@ -48,6 +48,9 @@ fuzz_target!(|text: &str| {
         friction: same(),
         orders: same(),
         integrator: same(),
+        steps: same(),
+        transient: same(),
+        direction: same(),
         ..QuestionText::default()
     };
     for (_, verb) in Verb::ALL {

@@ -100,7 +100,7 @@ impl AnalysisError {
             Self::MethodDoesNotFit { method: "first-harmonic", .. } => {
                 "--method harmonic-balance takes any law and any number of nonlinear shafts"
             }
-            Self::MethodDoesNotFit { method: "harmonic-balance", .. } => {
+            Self::MethodDoesNotFit { method: "harmonic-balance" | "bifurcation", .. } => {
                 "`halfshaft simulate` takes any line, one speed at a time"
             }
             Self::MethodDoesNotFit { .. } => "--method full takes any line",

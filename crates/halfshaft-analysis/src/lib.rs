@@ -12,12 +12,14 @@
 //! | `time_response` | `simulate` | order 8, dense output, energy balance |
 //! | `shock` | `shock` | the same, single equations, multiple scales |
 //! | `basins` | `basins` | many motions side by side |
+//! | `bifurcation` | `bifurcation` | the motion from value to value, seen once a period |
 //! | `averaging` | `resonance`, `folds` | closed form of one mode |
 //! | `shooting` | orbits by the motion itself | Taylor series between the kinks of laws |
 //! | `verification` | what the full equations say | shooting |
 
 mod averaging;
 mod basins;
+mod bifurcation;
 mod check;
 mod equilibrium;
 mod error;
@@ -86,6 +88,9 @@ pub fn ask(
             }
         },
         Question::Basins(question) => Answer::Basins(basins::solve(line, question, observer)?),
+        Question::Bifurcation(question) => {
+            Answer::Bifurcation(bifurcation::solve(line, question, observer)?)
+        }
         Question::Folds(question) => match question.method {
             ResonanceMethod::HarmonicBalance => {
                 Answer::Folds(harmonic_balance::solve_folds(line, question, observer)?)

@@ -279,3 +279,50 @@ fn basins_have_one_speed_a_window_and_a_grid() {
     assert!(errors.iter().all(|error| !error.hint.is_empty()), "{errors:?}");
     assert_eq!(asked(&QuestionText::default()).expect_err("has no speed").len(), 1);
 }
+
+// Source: by hand.
+#[test]
+fn a_bifurcation_sweeps_speeds_or_a_number_of_the_model() {
+    let some = |text: &str| Some(text.to_owned());
+    let asked = |text: &QuestionText| read(Verb::Bifurcation, text, &example());
+    let text = QuestionText {
+        frequency: some("60rpm..120rpm"),
+        steps: some("11"),
+        transient: some("0"),
+        points: some("7"),
+        direction: some("down"),
+        no_branches: true,
+        ..QuestionText::default()
+    };
+    let Ok(Question::Bifurcation(question)) = asked(&text) else { panic!("is sound") };
+    let turn = std::f64::consts::TAU;
+    let (from, to) = question.frequency.expect("is given");
+    assert!((from - turn).abs() < 1e-12 && (to - 2.0 * turn).abs() < 1e-12);
+    assert_eq!((question.steps, question.transient, question.points), (11, 0, 7));
+    assert!(!question.branches);
+    let over = QuestionText {
+        frequency: some("4Hz"),
+        parameter: some("half-shaft.damping=1..100"),
+        ..QuestionText::default()
+    };
+    let Ok(Question::Bifurcation(question)) = asked(&over) else { panic!("is sound") };
+    assert_eq!(question.parameter.map(|range| (range.from, range.to)), Some((1.0, 100.0)));
+    // All mistakes at once, each of them told.
+    let wrong = QuestionText {
+        frequency: some("0Hz..4Hz"),
+        steps: some("1"),
+        points: some("0"),
+        shaft: some("halfshaft"),
+        direction: some("sideways"),
+        ..QuestionText::default()
+    };
+    let errors = asked(&wrong).expect_err("is wrong");
+    let options: Vec<&str> = errors.iter().map(|error| error.option).collect();
+    assert_eq!(options, ["frequency", "steps", "points", "shaft", "direction"]);
+    let single = QuestionText { frequency: some("4Hz"), ..QuestionText::default() };
+    let errors = asked(&single).expect_err("sweeps nothing");
+    assert!(errors[0].hint.contains("--parameter"), "{errors:?}");
+    let many =
+        QuestionText { steps: some("1000000"), points: some("1000"), ..QuestionText::default() };
+    assert_eq!(asked(&many).expect_err("is too much").len(), 1);
+}

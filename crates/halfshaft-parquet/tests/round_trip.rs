@@ -28,6 +28,8 @@ fn answers() -> Vec<Answer> {
         put(&example, verb, plain());
     }
     put(&example, Verb::Shock, QuestionText { compare: true, ..plain() });
+    let steps = Some("4".to_owned());
+    put(&example, Verb::Bifurcation, QuestionText { steps, ..plain() });
     for method in ["clamped", "published", "multiple-scales"] {
         put(&example, Verb::Shock, QuestionText { method: Some(method.to_owned()), ..plain() });
     }

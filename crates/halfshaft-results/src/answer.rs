@@ -4,8 +4,8 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::{
-    BasinsResult, CheckResult, Column, FoldsResult, Header, HistoryResult, ModesResult, Named,
-    ReportResult, ResonanceResult, StaticResult, StudyResult, Table,
+    BasinsResult, BifurcationResult, CheckResult, Column, FoldsResult, Header, HistoryResult,
+    ModesResult, Named, ReportResult, ResonanceResult, StaticResult, StudyResult, Table,
 };
 
 /// Any result; which one, its `analysis` says.
@@ -26,6 +26,8 @@ pub enum Answer {
     Folds(FoldsResult),
     /// Of `basins`.
     Basins(BasinsResult),
+    /// Of `bifurcation`.
+    Bifurcation(BifurcationResult),
     /// Of `run`.
     Study(StudyResult),
     /// Of `report`.
@@ -45,6 +47,7 @@ impl<'de> Deserialize<'de> for Answer {
             "resonance" => serde_json::from_value(value).map(Self::Resonance),
             "folds" => serde_json::from_value(value).map(Self::Folds),
             "basins" => serde_json::from_value(value).map(Self::Basins),
+            "bifurcation" => serde_json::from_value(value).map(Self::Bifurcation),
             "run" => serde_json::from_value(value).map(Self::Study),
             "report" => serde_json::from_value(value).map(Self::Report),
             other => {
@@ -67,6 +70,7 @@ impl Answer {
             Self::Resonance(result) => &result.header,
             Self::Folds(result) => &result.header,
             Self::Basins(result) => &result.header,
+            Self::Bifurcation(result) => &result.header,
             Self::Study(result) => &result.header,
             Self::Report(result) => &result.header,
         }
@@ -77,6 +81,7 @@ impl Answer {
     pub fn bulk_mut(&mut self) -> Vec<&mut Vec<Column>> {
         match self {
             Self::History(result) => vec![&mut result.columns],
+            Self::Bifurcation(result) => vec![&mut result.columns],
             Self::Resonance(result) => {
                 result.branches.iter_mut().map(|branch| &mut branch.columns).collect()
             }
@@ -100,6 +105,7 @@ impl Answer {
             Self::Static(result) => vec![("equilibria".to_owned(), equilibria(result))],
             Self::Modes(result) => vec![("modes".to_owned(), modes(result))],
             Self::Basins(result) => vec![("basins".to_owned(), result.table())],
+            Self::Bifurcation(result) => vec![("points".to_owned(), result.table())],
             Self::Check(_) | Self::Study(_) | Self::Report(_) => Vec::new(),
         }
     }

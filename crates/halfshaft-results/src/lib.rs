@@ -6,7 +6,8 @@
 //!
 //! - [`Table`]: named columns with units; the shape of everything that can be plotted.
 //! - [`CheckResult`], [`StaticResult`], [`ModesResult`], [`HistoryResult`] (simulate and
-//!   shock), [`ResonanceResult`], [`FoldsResult`], [`StudyResult`], [`ReportResult`].
+//!   shock), [`ResonanceResult`], [`FoldsResult`], [`BasinsResult`], [`BifurcationResult`],
+//!   [`StudyResult`], [`ReportResult`].
 //! - [`io`]: JSON and CSV files, written under a temporary name and renamed.
 //!
 //! JSON has no NaN and no infinity. Both are written as `null`, and `null` comes back as NaN where
@@ -14,6 +15,7 @@
 
 mod answer;
 mod basins;
+mod bifurcation;
 mod check;
 mod equilibrium;
 mod folds;
@@ -30,6 +32,7 @@ mod table;
 
 pub use answer::Answer;
 pub use basins::{Attractor, BasinGrid, BasinsResult};
+pub use bifurcation::{BifurcationResult, StrobedBranch, SweepJump};
 pub use check::{
     CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
     CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,

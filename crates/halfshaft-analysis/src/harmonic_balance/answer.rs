@@ -155,7 +155,7 @@ impl Setting {
 
 /// Refuses what harmonics cannot represent, by name: a damper that acts in contact only makes the
 /// torque jump where the contact opens. Shooting follows such lines.
-fn refuse(equations: &EquationsOfMotion) -> Result<(), AnalysisError> {
+pub(super) fn refuse(equations: &EquationsOfMotion) -> Result<(), AnalysisError> {
     let jumps = |c: &&halfshaft_dynamics::Connection| !c.damps_in_gap && c.damping != 0.0;
     match equations.connections.iter().find(jumps) {
         Some(connection) if !connection.law.is_linear() => Err(AnalysisError::MethodDoesNotFit {
@@ -172,6 +172,19 @@ fn refuse(equations: &EquationsOfMotion) -> Result<(), AnalysisError> {
     }
 }
 
+/// All branches over the excitation speed.
+pub(super) fn over_speed(
+    setting: &Setting,
+    question: &ResonanceQuestion,
+    observer: &dyn Observer,
+) -> Result<Collected, AnalysisError> {
+    if let Some(collected) = super::exact::collect(setting, question, observer) {
+        return Ok(collected);
+    }
+    refuse(&setting.line.equations)?;
+    Ok(by_harmonics(setting, question, observer))
+}
+
 /// Answers `resonance` by harmonic balance.
 pub(crate) fn solve(
     line: &Driveline,
@@ -184,13 +197,7 @@ pub(crate) fn solve(
         refuse(&equations)?;
         return super::parameter_answer::solve(line, question, range, &setting, observer);
     }
-    let collected = match super::exact::collect(&setting, question, observer) {
-        Some(collected) => collected,
-        None => {
-            refuse(&equations)?;
-            by_harmonics(&setting, question, observer)
-        }
-    };
+    let collected = over_speed(&setting, question, observer)?;
     let header = header(line, &Question::Resonance(question.clone()));
     let mut measured = Measured::new(&setting, None);
     let mut result = assemble(&setting, &collected, &mut measured, header);

@@ -15,6 +15,7 @@
 //! | `lines`, `fold_system`, `fold_points`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
+//! | `strobed` | branches as states at the beginning of periods |
 //! | `channels`, `breaks`, `measured`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
 //! | `layers` | single layers, for benches |
 
@@ -64,6 +65,7 @@ mod settling;
 mod skeleton;
 mod special;
 mod stability;
+mod strobed;
 mod structure;
 mod switching;
 mod system;
@@ -76,3 +78,4 @@ mod verify;
 pub(crate) use answer::solve;
 pub(crate) use at_speed::{AtSpeed, Response};
 pub(crate) use fold_answer::solve as solve_folds;
+pub(crate) use strobed::{Prepared, Strobe, StrobedResponses, strobed};

@@ -30,13 +30,22 @@ pub(super) fn state_of_series(
     coordinates: &Coordinates,
 ) -> Vec<f64> {
     let mut system = HarmonicSystem::new(line.clone(), set.clone(), base);
-    let place = Place { frequency, drive: 1.0 };
-    let series = group_series(&mut system, u, place);
-    let speed = base * frequency;
-    let m = set.coefficients();
+    let series = group_series(&mut system, u, Place { frequency, drive: 1.0 });
+    state_at(line, set, &series, base * frequency, 0.0, coordinates)
+}
+
+/// The state at a phase of the fundamental (rad), which runs at `speed` (rad/s), of series of all groups.
+pub(super) fn state_at(
+    line: &Line,
+    set: &HarmonicSet,
+    series: &[f64],
+    speed: f64,
+    phase: f64,
+    coordinates: &Coordinates,
+) -> Vec<f64> {
     let (mut angles, mut speeds) = (Vec::new(), Vec::new());
-    for coefficients in series.chunks_exact(m) {
-        let (value, slope) = set.evaluate(coefficients, 0.0);
+    for coefficients in series.chunks_exact(set.coefficients()) {
+        let (value, slope) = set.evaluate(coefficients, phase);
         angles.push(value);
         speeds.push(speed * slope);
     }

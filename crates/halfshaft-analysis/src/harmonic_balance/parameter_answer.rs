@@ -8,7 +8,7 @@ use halfshaft_numerics::observer::Observer;
 use halfshaft_results::ResonanceResult;
 
 use super::answer::{Setting, assemble, trace_settings};
-use super::branches::Job;
+use super::branches::{Collected, Job};
 use super::line::{Line, nonlinear};
 use super::lines::Lines;
 use super::measured::{Along, Measured};
@@ -34,6 +34,22 @@ const INSET: f64 = 1e-6;
 /// Values of the parameter at which responses are looked for.
 const SLICES: u32 = 7;
 
+/// All branches over a number of the line.
+pub(super) struct OverParameter<'q> {
+    lines: Lines<'q>,
+    /// Which twists are nonlinear somewhere in the range.
+    flags: Vec<bool>,
+    pub(super) setting: Setting,
+    pub(super) collected: Collected,
+}
+
+impl OverParameter<'_> {
+    /// The line at a value, as harmonics see it.
+    pub(super) fn member(&self, value: f64) -> Option<Line> {
+        self.lines.at(value).map(|equations| Line::flagged(equations, &self.flags))
+    }
+}
+
 /// Answers `resonance` with a parameter in place of the speed.
 pub(super) fn solve(
     line: &Driveline,
@@ -42,6 +58,27 @@ pub(super) fn solve(
     own: &Setting,
     observer: &dyn Observer,
 ) -> Result<ResonanceResult, AnalysisError> {
+    let frequency = own.range.0;
+    let over = over_parameter(line, question, range, own, observer)?;
+    let header = header(line, &Question::Resonance(question.clone()));
+    let member = |value: f64| over.member(value);
+    let unit = over.lines.parameter.unit();
+    let along = Along { address: &range.address, unit, frequency, family: &member };
+    let mut measured = Measured::new(&over.setting, Some(along));
+    let mut result = assemble(&over.setting, &over.collected, &mut measured, header);
+    messages(&over.setting, question, &over.collected, &mut result);
+    result.header.assumptions.push(format!("at a fixed excitation speed of {frequency:.6} rad/s"));
+    Ok(result)
+}
+
+/// Follows all responses over a number of the line.
+pub(super) fn over_parameter<'q>(
+    line: &'q Driveline,
+    question: &ResonanceQuestion,
+    range: &ParameterRange,
+    own: &Setting,
+    observer: &dyn Observer,
+) -> Result<OverParameter<'q>, AnalysisError> {
     let parameter = line.parameter(&range.address).map_err(ChangeError::Address)?;
     let lines = Lines::new(line, parameter);
     let frequency = own.range.0;
@@ -103,13 +140,5 @@ pub(super) fn solve(
     };
     let mut collected = job.collect(&seeds);
     collected.counted.add(counted);
-    let header = header(line, &Question::Resonance(question.clone()));
-    let member = |value: f64| lines.at(value).map(|equations| Line::flagged(equations, &flags));
-    let along =
-        Along { address: &range.address, unit: lines.parameter.unit(), frequency, family: &member };
-    let mut measured = Measured::new(&setting, Some(along));
-    let mut result = assemble(&setting, &collected, &mut measured, header);
-    messages(&setting, question, &collected, &mut result);
-    result.header.assumptions.push(format!("at a fixed excitation speed of {frequency:.6} rad/s"));
-    Ok(result)
+    Ok(OverParameter { lines, flags, setting, collected })
 }

@@ -42,8 +42,10 @@ pub(crate) struct Step<'s> {
     pub(super) twists: &'s [Series],
 }
 
-/// Size of the last terms of a step relative to the motion.
+/// Size of the last terms of a step relative to the motion where nobody tolerates more.
 const ROUNDING: f64 = 1e-17;
+/// The last terms are this part of the error that is tolerated: the terms left out are less than them.
+const SAFETY: f64 = 0.1;
 /// Steps at most.
 const MOST_STEPS: usize = 100_000;
 /// Passages between pieces at most.
@@ -55,13 +57,20 @@ pub(crate) struct Flow<'e> {
     motion: Motion<'e>,
     columns: Columns,
     pub(crate) coordinates: Coordinates,
+    /// Size of the last terms of a step relative to the motion.
+    last_terms: f64,
 }
 
 impl<'e> Flow<'e> {
     pub(crate) fn new(equations: &'e EquationsOfMotion, reference: f64) -> Self {
         let coordinates = Coordinates::new(equations, reference);
         let columns = Columns::new(equations, &coordinates);
-        Self { motion: Motion::new(equations), columns, coordinates }
+        Self { motion: Motion::new(equations), columns, coordinates, last_terms: ROUNDING }
+    }
+
+    /// Sets the error of a step that is tolerated, relative to the motion, in place of rounding.
+    pub(crate) fn set_tolerance(&mut self, tolerance: f64) {
+        self.last_terms = (SAFETY * tolerance).max(ROUNDING);
     }
 
     /// Sets the factor on all harmonic torques.
@@ -97,10 +106,10 @@ impl<'e> Flow<'e> {
         let (mut t, mut steps, mut passages) = (0.0, 0, 0);
         while t < end {
             self.motion.expand(t, frequency);
-            let mut step = self.motion.reach(self.coordinates.reference, ROUNDING);
+            let mut step = self.motion.reach(self.coordinates.reference, self.last_terms);
             if varied {
                 self.columns.expand(&self.motion, t, frequency);
-                step = step.min(self.columns.reach(self.coordinates.reference, ROUNDING));
+                step = step.min(self.columns.reach(self.coordinates.reference, self.last_terms));
             }
             let whole = end - t;
             // A sliver left over would cost a step of its own.

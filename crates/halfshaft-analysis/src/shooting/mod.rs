@@ -22,6 +22,6 @@ mod tests;
 mod waves;
 
 pub(crate) use coordinates::Coordinates;
-pub(crate) use flow::{Lost, Step};
+pub(crate) use flow::{Flow, Lost, Step};
 pub(crate) use orbit::{Orbit, Plane, Shooter, length};
 pub(crate) use waves::{Sampled, Swing, Turn};

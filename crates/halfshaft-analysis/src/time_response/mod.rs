@@ -20,4 +20,4 @@ mod watch;
 pub(crate) use answer::{DEFAULT_PARTS, channel_metrics, energy_warning, history_columns, solve};
 pub(crate) use initial::start_state;
 pub(crate) use recorder::{Recorder, TracePoint, TurningPoint};
-pub(crate) use run::{Run, RunSettings, run};
+pub(crate) use run::{Run, RunSettings, reaches, run};

@@ -258,7 +258,7 @@ fn chattered(equations: &EquationsOfMotion, connection: usize, time: f64) -> Ter
 const LOST: f64 = 4.0;
 
 /// Tree twists whose laws have a limit on both sides, and how far is too far.
-fn reaches(equations: &EquationsOfMotion) -> Vec<(usize, f64)> {
+pub(crate) fn reaches(equations: &EquationsOfMotion) -> Vec<(usize, f64)> {
     let reach = |shaft: usize| {
         let limit = equilibrium::snap_limits(&equations.connections[shaft].law);
         Some(LOST * limit.positive?.twist.abs().max(limit.negative?.twist.abs()))

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use halfshaft::model::question::{
-    DryFriction, IntegratorChoice, ShockEquation, ShockMethod, Start,
+    DryFriction, IntegratorChoice, ShockEquation, ShockMethod, Start, SweepDirection,
 };
 use halfshaft::{QuestionText, Verb};
 
@@ -101,6 +101,19 @@ pub enum Ask {
   halfshaft basins my-line.toml --frequency 26rad/s --grid 400 --out basins.png
   halfshaft basins my-line.toml --frequency 26rad/s --window \"-5rad..5rad,-120rad/s..120rad/s\"")]
     Basins(Basins),
+    /// What the line settles to on a stepwise sweep, seen once a period: the bifurcation diagram
+    ///
+    /// At every value of the excitation speed (or, with --parameter, of a number of the model at one
+    /// speed) the motion goes on from where it was at the value before, so that hysteresis shows. It is
+    /// followed by integration until it repeats or --transient is over; then the twist and its rate are
+    /// recorded whenever a period of the excitation begins: one repetition of a motion that repeats,
+    /// --points periods of any other. Each motion has its period, its largest Lyapunov exponent and the
+    /// branch of `resonance` that it lies on.
+    #[command(after_help = "Examples:
+  halfshaft bifurcation my-line.toml --frequency 3Hz..5Hz --out diagram.png
+  halfshaft bifurcation --frequency 4.1Hz --parameter \"engine torque.amplitude=0..800\"
+  halfshaft bifurcation my-line.toml --frequency 20rad/s..30rad/s --direction up --steps 1000")]
+    Bifurcation(Bifurcation),
 }
 
 /// The model that is asked about, and what to do with the answer.
@@ -240,6 +253,57 @@ impl Basins {
     }
 }
 
+#[derive(Args, Debug)]
+pub struct Bifurcation {
+    #[command(flatten)]
+    pub model: Model,
+    /// Range of the excitation speed Ω, e.g. 3Hz..5Hz; one speed with --parameter [default: about the
+    /// resonance]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
+    pub frequency: Option<String>,
+    /// A number of the model to go through at one speed: "half-shaft.damping=1..100"
+    #[arg(long, value_name = "ADDRESS=A..B")]
+    pub parameter: Option<String>,
+    /// Number of values, both ends included [default: 200]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub steps: Option<String>,
+    /// Periods of the excitation for settling at each value, at most [default: 200]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub transient: Option<String>,
+    /// Periods that are recorded of a motion that does not repeat [default: 64]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub points: Option<String>,
+    /// Shaft whose twist and rate are recorded [default: the first nonlinear one]
+    #[arg(long, value_name = "NAME")]
+    pub shaft: Option<String>,
+    /// Relative error of a step of the integration [default: 1e-9]
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    pub tolerance: Option<String>,
+    /// Which way to sweep [default: both]
+    #[arg(long, value_name = "DIRECTION", value_parser = OneOf(&SweepDirection::WORDS))]
+    pub direction: Option<String>,
+    /// Leave out the branches that `resonance` continues over the same range
+    #[arg(long)]
+    pub no_branches: bool,
+}
+
+impl Bifurcation {
+    fn text(&self) -> QuestionText {
+        QuestionText {
+            frequency: self.frequency.clone(),
+            parameter: self.parameter.clone(),
+            steps: self.steps.clone(),
+            transient: self.transient.clone(),
+            points: self.points.clone(),
+            shaft: self.shaft.clone(),
+            tolerance: self.tolerance.clone(),
+            direction: self.direction.clone(),
+            no_branches: self.no_branches,
+            ..QuestionText::default()
+        }
+    }
+}
+
 impl Ask {
     /// The model, to complete its flags.
     pub fn model_mut(&mut self) -> &mut Model {
@@ -251,6 +315,7 @@ impl Ask {
             Self::Resonance(resonance) => &mut resonance.model,
             Self::Folds(folds) => &mut folds.model,
             Self::Basins(basins) => &mut basins.model,
+            Self::Bifurcation(bifurcation) => &mut bifurcation.model,
         }
     }
 
@@ -269,6 +334,9 @@ impl Ask {
             Self::Resonance(resonance) => (Verb::Resonance, &resonance.model, resonance.text()),
             Self::Folds(folds) => (Verb::Folds, &folds.model, folds.text()),
             Self::Basins(basins) => (Verb::Basins, &basins.model, basins.text()),
+            Self::Bifurcation(bifurcation) => {
+                (Verb::Bifurcation, &bifurcation.model, bifurcation.text())
+            }
         }
     }
 }

@@ -42,8 +42,8 @@ impl Reader<'_> {
         self.quantity("frequency", text, QuantityKind::Speed, Sign::Positive)
     }
 
-    /// The shaft whose state is varied, which must be one of the line's.
-    fn shaft(&mut self) -> Option<String> {
+    /// The shaft whose state is varied or recorded, which must be one of the line's.
+    pub(super) fn shaft(&mut self) -> Option<String> {
         let written = self.text.shaft.as_deref()?;
         let names: Vec<&str> = self.line.connection_names().collect();
         if names.contains(&written) {

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::bifurcation::BifurcationQuestion;
 use super::channel::InitialValue;
 use crate::format::words;
 
@@ -25,11 +26,13 @@ pub enum Verb {
     Folds,
     /// Which initial state leads to which response at one excitation speed.
     Basins,
+    /// What the line settles to on a stepwise sweep, period by period.
+    Bifurcation,
 }
 
 impl Verb {
     /// All verbs with their names.
-    pub const ALL: [(&'static str, Self); 8] = [
+    pub const ALL: [(&'static str, Self); 9] = [
         ("check", Self::Check),
         ("static", Self::Static),
         ("modes", Self::Modes),
@@ -38,6 +41,7 @@ impl Verb {
         ("resonance", Self::Resonance),
         ("folds", Self::Folds),
         ("basins", Self::Basins),
+        ("bifurcation", Self::Bifurcation),
     ];
 
     /// Name of the verb.
@@ -66,6 +70,8 @@ pub enum Question {
     Folds(FoldsQuestion),
     /// See [`Verb::Basins`].
     Basins(BasinsQuestion),
+    /// See [`Verb::Bifurcation`].
+    Bifurcation(BifurcationQuestion),
 }
 
 impl Question {
@@ -80,6 +86,7 @@ impl Question {
             Self::Resonance(_) => Verb::Resonance,
             Self::Folds(_) => Verb::Folds,
             Self::Basins(_) => Verb::Basins,
+            Self::Bifurcation(_) => Verb::Bifurcation,
         }
     }
 }

@@ -4,6 +4,7 @@
 //! into a [`Question`] in SI or into every mistake at once. The analyses take it from there.
 
 mod basins;
+mod bifurcation;
 mod channel;
 mod kinds;
 mod parameter_axis;
@@ -12,6 +13,7 @@ mod read;
 mod text;
 mod values;
 
+pub use bifurcation::{BifurcationQuestion, SweepDirection};
 pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
     BasinsQuestion, DEFAULT_POINTS, DryFriction, FoldsQuestion, IntegratorChoice, ModesQuestion,

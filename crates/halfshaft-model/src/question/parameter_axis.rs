@@ -1,4 +1,4 @@
-//! The parameter that `folds` and `resonance` go through: an address with a range of values that can
+//! The parameter that `folds`, `resonance` and `bifurcation` go through: an address with a range of values that can
 //! have an effect.
 
 use super::kinds::ParameterRange;

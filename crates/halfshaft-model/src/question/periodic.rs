@@ -28,7 +28,7 @@ impl Reader<'_> {
             let hint = "leave it out, or leave --parameter out";
             self.refuse("verify", text.verify.then_some(""), message, hint);
         }
-        let parameter = if swept && balanced { self.swept() } else { None };
+        let parameter = if swept && balanced { self.swept("periodic responses") } else { None };
         let frequency = match (swept, balanced) {
             (false, _) => self.range_of_speeds(balanced),
             (true, true) => self.one_speed(),
@@ -127,17 +127,13 @@ impl Reader<'_> {
         self.count("harmonics", self.text.harmonics.as_deref(), 1, MOST_HARMONICS)
     }
 
-    /// The parameter that responses are followed in at one speed.
-    fn swept(&mut self) -> Option<ParameterRange> {
-        self.parameter(&Sweep {
-            what: "periodic responses",
-            coefficients: false,
-            orders: Orders::All,
-        })
+    /// The parameter that responses are followed in at one speed; `what` they are, in words.
+    pub(super) fn swept(&mut self, what: &'static str) -> Option<ParameterRange> {
+        self.parameter(&Sweep { what, coefficients: false, orders: Orders::All })
     }
 
     /// A range of speeds; where one speed stands there, what it would be good for is told.
-    fn range_of_speeds(&mut self, balanced: bool) -> Option<(f64, f64)> {
+    pub(super) fn range_of_speeds(&mut self, balanced: bool) -> Option<(f64, f64)> {
         let errors = self.errors.len();
         let range = self.speeds();
         let single = self.text.frequency.as_deref().is_some_and(|text| !text.contains(".."));
@@ -151,7 +147,7 @@ impl Reader<'_> {
     }
 
     /// The speed at which a parameter is gone through.
-    fn one_speed(&mut self) -> Option<(f64, f64)> {
+    pub(super) fn one_speed(&mut self) -> Option<(f64, f64)> {
         let Some(text) = self.text.frequency.as_deref() else {
             let message = "at which excitation speed does the parameter run?";
             let hint = "add one, e.g. --frequency 4Hz, or leave --parameter out to sweep the speed";

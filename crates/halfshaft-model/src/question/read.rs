@@ -35,6 +35,7 @@ pub fn read(
             None => return Err(reader.errors),
         },
         Verb::Basins => Question::Basins(reader.basins()),
+        Verb::Bifurcation => Question::Bifurcation(reader.bifurcation()),
     };
     if reader.errors.is_empty() { Ok(question) } else { Err(reader.errors) }
 }

@@ -11,6 +11,8 @@ pub struct QuestionText {
     pub start: Option<String>,
     /// `--frequency`: one speed or a run from one to another for `simulate`, one for `basins` and beside a `--parameter` of `resonance`, a range for
     /// the others.
+    /// `--frequency`: one speed for `simulate`, `basins` and beside a `--parameter` of `resonance` and
+    /// `bifurcation`, a range for the others.
     pub frequency: Option<String>,
     /// `--step`.
     pub step: Option<String>,
@@ -60,6 +62,14 @@ pub struct QuestionText {
     pub orders: Option<String>,
     /// `--friction`.
     pub friction: Option<String>,
+    /// `--steps`.
+    pub steps: Option<String>,
+    /// `--transient`.
+    pub transient: Option<String>,
+    /// `--direction`.
+    pub direction: Option<String>,
+    /// `--no-branches`.
+    pub no_branches: bool,
 }
 
 /// What is wrong with one option.

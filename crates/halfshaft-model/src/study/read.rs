@@ -348,6 +348,10 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         friction: option("friction"),
         orders: option("orders"),
         integrator: option("integrator"),
+        steps: option("steps"),
+        transient: option("transient"),
+        direction: option("direction"),
+        no_branches: table.flag("no-branches"),
     }
 }
 

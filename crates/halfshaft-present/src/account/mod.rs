@@ -8,6 +8,7 @@ use halfshaft_results::{Answer, Header};
 pub(crate) use grid::{Grid, GridColumn, Tone};
 
 pub(crate) mod basins;
+pub(crate) mod bifurcation;
 pub(crate) mod check;
 pub(crate) mod folds;
 pub(crate) mod head;
@@ -111,6 +112,7 @@ pub(crate) fn of(answer: &Answer) -> Account {
         Answer::Resonance(result) => resonance::account(result),
         Answer::Folds(result) => folds::account(result),
         Answer::Basins(result) => basins::account(result),
+        Answer::Bifurcation(result) => bifurcation::account(result),
         Answer::Study(result) => study::account(result),
         Answer::Report(result) => report::account(result),
     }

@@ -24,6 +24,9 @@ pub(crate) fn next(answer: &Answer) -> Option<String> {
         Answer::Basins(_) => {
             "`halfshaft resonance` for these responses over the speed, and where each of them ends"
         }
+        Answer::Bifurcation(_) => {
+            "`halfshaft basins` at one of these speeds for which initial state leads where"
+        }
         Answer::Study(_) => return None,
         Answer::Report(report) => {
             let shaft = report.check.shafts.first().map_or("SHAFT", |shaft| shaft.name.as_str());

@@ -13,6 +13,7 @@ use crate::figure::Figure;
 pub use study::study_figures;
 
 pub(crate) mod basins;
+pub(crate) mod bifurcation;
 pub(crate) mod folds;
 pub(crate) mod history;
 pub(crate) mod levels;
@@ -47,6 +48,7 @@ pub fn of(answer: &Answer) -> Vec<Figure> {
         Answer::Resonance(result) => resonance::figures(result),
         Answer::Folds(result) => vec![folds::compared(result, None)],
         Answer::Basins(result) => vec![basins::figure(result)],
+        Answer::Bifurcation(result) => vec![bifurcation::figure(result)],
         Answer::Study(result) => study_figures(result),
         Answer::Report(report) => of_report(report),
     };

@@ -117,6 +117,7 @@ fn tables(answer: &Answer) -> Vec<Columns<'_>> {
         Answer::Check(_)
         | Answer::Modes(_)
         | Answer::Basins(_)
+        | Answer::Bifurcation(_)
         | Answer::Study(_)
         | Answer::Report(_) => Vec::new(),
     }

@@ -74,6 +74,7 @@ pub fn answers(line: &Driveline) -> Vec<Answer> {
         (Verb::Shock, QuestionText { compare: true, ..usual() }),
         (Verb::Resonance, QuestionText { verify: true, ..averaged() }),
         (Verb::Folds, QuestionText { parameter: Some("mode.f=1..2000".to_owned()), ..averaged() }),
+        (Verb::Bifurcation, QuestionText { steps: Some("5".to_owned()), ..usual() }),
     ];
     let answer = |(verb, text): (Verb, QuestionText)| {
         ask(line, &read(verb, &text, line).ok()?, &Silent).ok()

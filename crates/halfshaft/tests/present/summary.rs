@@ -145,12 +145,19 @@ fn every_summary_tells_the_numbers_of_its_answer() {
                     5,
                 );
             }
+            Answer::Bifurcation(result) => {
+                let swept = result.values.values("frequency");
+                assert_shows(number_after(&told, "period 1 from"), swept[0], 6);
+                let most = result.values.values("lyapunov_exponent").iter().copied();
+                let most = most.fold(f64::NEG_INFINITY, f64::max);
+                assert_shows(number_after(&told, "Largest Lyapunov exponent"), most, 4);
+            }
             Answer::Basins(_) | Answer::Study(_) | Answer::Report(_) => {
                 unreachable!("no such verb was asked")
             }
         }
     }
-    assert_eq!(seen, 7, "every verb has its answer");
+    assert_eq!(seen, 8, "every verb has its answer");
 }
 
 fn statics(result: &StaticResult, told: &str) {
