@@ -121,7 +121,7 @@ fn unit(result: &BifurcationResult) -> &str {
 }
 
 fn value(result: &BifurcationResult, x: f64) -> String {
-    quantity(x, 6, unit(result))
+    quantity(x, 6, &plain(unit(result)))
 }
 
 fn opening(result: &BifurcationResult) -> Vec<String> {
