@@ -247,8 +247,7 @@ fn stick_and_slip_follow_the_exact_pieces() {
     let drive = |t: f64| p * (w * t).cos();
     let slide = |sign: f64, t0: f64, (x0, v0): (f64, f64), t: f64| {
         let rest = -sign * friction / k;
-        let (a, b) =
-            (x0 - rest - gain * (w * t0).cos(), (v0 + gain * w * (w * t0).sin()) / own);
+        let (a, b) = (x0 - rest - gain * (w * t0).cos(), (v0 + gain * w * (w * t0).sin()) / own);
         let (sin, cos) = (own * (t - t0)).sin_cos();
         (
             rest + gain * (w * t).cos() + a * cos + b * sin,

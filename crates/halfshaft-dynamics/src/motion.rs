@@ -322,10 +322,7 @@ pub(crate) fn rate_jumps(equations: &EquationsOfMotion, t: f64) -> Option<Vec<f6
     if impulses.iter().all(|impulse| *impulse == 0.0) {
         return None;
     }
-    let speeds: Vec<f64> = impulses.iter().zip(&equations.inertia).map(|(p, m)| p / m).collect();
-    let tree = equations.network.tree.iter();
-    let mean = equations.rigid.as_ref().map(|rigid| rigid.mean(&speeds));
-    Some(tree.map(|edge| equations.twist(edge.shaft, &speeds)).chain(mean).collect())
+    Some(equations.rate_jumps(&impulses))
 }
 
 /// Torque of one source at time `t`.
@@ -397,7 +394,8 @@ impl System for Motion<'_> {
             let Kinematics { speeds, twists, rates, .. } = &self.kinematics;
             rate[2 * n] = self.external.iter().zip(speeds).map(|(q, v)| q * v).sum();
             let shafts = self.equations.connections.iter().zip(twists).zip(rates).enumerate();
-            let resistance = |index: usize, c: &crate::Connection, x: f64, v: f64| match &self.modes {
+            let resistance = |index: usize, c: &crate::Connection, x: f64, v: f64| match &self.modes
+            {
                 None => c.resistance(x, v),
                 Some(modes) => {
                     let damps = modes.list[index].damps;

@@ -8,8 +8,8 @@
 use crate::diagnostic::did_you_mean;
 use crate::driveline::Driveline;
 use crate::elements::{
-    ENGAGEMENT, GEAR, HARMONIC, Harmonic, INERTIA, MEASURED, MeanTorque, PULSE, SHAFT, STAGE, Shaft, TORQUE,
-    TORQUE_TABLE, Torque,
+    ENGAGEMENT, GEAR, HARMONIC, Harmonic, INERTIA, MEASURED, MeanTorque, PULSE, SHAFT, STAGE,
+    Shaft, TORQUE, TORQUE_TABLE, Torque,
 };
 use crate::format::{TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};

@@ -25,8 +25,7 @@ pub(crate) fn solve(
     observer: &dyn Observer,
 ) -> Result<HistoryResult, AnalysisError> {
     let equations = EquationsOfMotion::new(line)?;
-    let active =
-        Active { acceleration: question.acceleration, ..Active::all(question.frequency) };
+    let active = Active { acceleration: question.acceleration, ..Active::all(question.frequency) };
     let mut motion = Motion::new(&equations, active, true);
     let state = start_state(line, &mut motion, question.start, &question.initial)?;
     let record = question.record.unwrap_or((0.0, question.duration));

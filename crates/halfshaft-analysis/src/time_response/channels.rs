@@ -100,8 +100,14 @@ impl<'l> Channels<'l> {
             let (value, slope) = match channel.owner {
                 Owner::Connection(index) => {
                     let (x, v) = (kinematics.twists[index], kinematics.rates[index]);
-                    let (value, slope) =
-                        of_connection(equations, index, channel.quantity, x, v, change.rates[index]);
+                    let (value, slope) = of_connection(
+                        equations,
+                        index,
+                        channel.quantity,
+                        x,
+                        v,
+                        change.rates[index],
+                    );
                     match &torques {
                         Some(torques) if channel.quantity == ChannelQuantity::Torque => {
                             (torques[index], slope)

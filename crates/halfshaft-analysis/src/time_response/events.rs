@@ -36,21 +36,26 @@ struct Connection {
 
 impl Events {
     /// No events yet of a motion that begins at time zero.
-    pub(super) fn new(equations: &EquationsOfMotion, motion: &Motion<'_>, record: (f64, f64)) -> Self {
+    pub(super) fn new(
+        equations: &EquationsOfMotion,
+        motion: &Motion<'_>,
+        record: (f64, f64),
+    ) -> Self {
         let shafts = equations.network.ends.len() - equations.meshes;
-        let connection = |(index, connection): (usize, &halfshaft_dynamics::Connection)| Connection {
-            name: connection.name.clone(),
-            is_gear: index >= shafts,
-            counted: ConnectionEvents::default(),
-            free: motion.is_free(index),
-            stuck: motion.is_stuck(index),
-            since: 0.0,
-            free_time: 0.0,
-            stuck_time: 0.0,
-            side: None,
-            switches: motion.modes().is_some()
-                && (connection.friction.is_some() || connection.law.pieces().list().len() > 1),
-        };
+        let connection =
+            |(index, connection): (usize, &halfshaft_dynamics::Connection)| Connection {
+                name: connection.name.clone(),
+                is_gear: index >= shafts,
+                counted: ConnectionEvents::default(),
+                free: motion.is_free(index),
+                stuck: motion.is_stuck(index),
+                since: 0.0,
+                free_time: 0.0,
+                stuck_time: 0.0,
+                side: None,
+                switches: motion.modes().is_some()
+                    && (connection.friction.is_some() || connection.law.pieces().list().len() > 1),
+            };
         let connections = equations.connections.iter().enumerate().map(connection).collect();
         Self { listed: Vec::new(), count: 0, connections, record }
     }

@@ -71,7 +71,8 @@ pub(crate) fn run<'l>(
     let watch = Watch::new(motion.clone(), 0.0);
     let events = Events::new(equations, &motion, settings.record);
     let numbers = integrator_settings(equations, &initial, settings);
-    let integrator = Dop853::new(motion, 0.0, &initial, numbers).doing("starting the integration")?;
+    let integrator =
+        Dop853::new(motion, 0.0, &initial, numbers).doing("starting the integration")?;
     let mut passes = Passes {
         equations,
         settings,
@@ -112,9 +113,14 @@ enum Finish {
     Reached,
     Interrupted,
     /// A twist is past the limit of its law.
-    RanAway { tree: usize, reach: f64 },
+    RanAway {
+        tree: usize,
+        reach: f64,
+    },
     /// A connection changes its mode without time passing.
-    Chattered { connection: usize },
+    Chattered {
+        connection: usize,
+    },
 }
 
 /// The steps of a run.
@@ -310,7 +316,10 @@ fn integrator_settings(
 }
 
 /// How an integration ended, in words that help.
-fn termination(finish: Result<ode::Finish, Error>, reached: f64) -> Result<Termination, AnalysisError> {
+fn termination(
+    finish: Result<ode::Finish, Error>,
+    reached: f64,
+) -> Result<Termination, AnalysisError> {
     let runs_away = "the motion runs away there; a softening shaft that is thrown past its \
                      capacity does that: see `halfshaft static`";
     match finish {

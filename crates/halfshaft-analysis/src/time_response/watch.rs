@@ -74,7 +74,11 @@ impl<'l> Watch<'l> {
     }
 
     /// The first border that is passed in the step.
-    pub(super) fn first(&mut self, dense: &DenseStep<'_>, (from, to): (f64, f64)) -> Option<Passage> {
+    pub(super) fn first(
+        &mut self,
+        dense: &DenseStep<'_>,
+        (from, to): (f64, f64),
+    ) -> Option<Passage> {
         if self.borders.is_empty() {
             return None;
         }

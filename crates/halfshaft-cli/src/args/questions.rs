@@ -215,6 +215,10 @@ pub struct Basins {
     /// Periods of the excitation after which a motion is given up [default: 2000]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub periods: Option<String>,
+    /// Node on which the smallest shock from one response to another acts [default: that of the first
+    /// torque with an order]
+    #[arg(long, value_name = "NODE")]
+    pub shock: Option<String>,
 }
 
 impl Basins {
@@ -226,6 +230,7 @@ impl Basins {
             shaft: self.shaft.clone(),
             tolerance: self.tolerance.clone(),
             periods: self.periods.clone(),
+            shock: self.shock.clone(),
             ..QuestionText::default()
         }
     }

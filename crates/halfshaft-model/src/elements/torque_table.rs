@@ -24,8 +24,12 @@ pub static TORQUE_TABLE: TableSpec = TableSpec {
           the header (`time [ms], torque [N·m]`) or in SI. The points have the addresses \
           `<name of the torque>.table.torque.1` and so on.",
     keys: &[
-        KeySpec::new("time", ValueSpec::Quantities(QuantityKind::Time, Sign::Any), "Times, ascending.")
-            .required(),
+        KeySpec::new(
+            "time",
+            ValueSpec::Quantities(QuantityKind::Time, Sign::Any),
+            "Times, ascending.",
+        )
+        .required(),
         KeySpec::new(
             "torque",
             ValueSpec::Quantities(QuantityKind::Torque, Sign::Any),
@@ -40,10 +44,7 @@ const MOST_POINTS: usize = 100_000;
 
 impl TorqueTable {
     pub(crate) fn read(table: &CheckedTable) -> Self {
-        Self {
-            time_s: table.numbers("time").to_vec(),
-            torque_nm: table.numbers("torque").to_vec(),
-        }
+        Self { time_s: table.numbers("time").to_vec(), torque_nm: table.numbers("torque").to_vec() }
     }
 
     /// Torque at time `t` (s), N·m; zero for a table without points.
@@ -105,9 +106,15 @@ mod tests {
     #[test]
     fn torques_lie_on_straight_lines() {
         let table = TorqueTable { time_s: vec![0.0, 0.5, 0.6], torque_nm: vec![10.0, 20.0, -5.0] };
-        for (t, torque) in
-            [(-1.0, 10.0), (0.0, 10.0), (0.25, 15.0), (0.5, 20.0), (0.55, 7.5), (0.6, -5.0), (9.0, -5.0)]
-        {
+        for (t, torque) in [
+            (-1.0, 10.0),
+            (0.0, 10.0),
+            (0.25, 15.0),
+            (0.5, 20.0),
+            (0.55, 7.5),
+            (0.6, -5.0),
+            (9.0, -5.0),
+        ] {
             assert!((table.torque(t) - torque).abs() < 1e-12, "{t}");
         }
         assert_eq!(table.fault(), None);

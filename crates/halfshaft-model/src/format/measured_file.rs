@@ -150,18 +150,25 @@ fn header(cells: &[(Range<usize>, &str)], names: &Names) -> Result<[Column; 2], 
     let wrong = |place: &Range<usize>, message: String| {
         let [(first, kind), (second, _)] = names;
         let unit = if *kind == QuantityKind::Time { "ms" } else { "deg" };
-        Diagnostic::error(place.clone(), message).hint(format!("e.g. {first} [{unit}], {second} [N·m]"))
+        Diagnostic::error(place.clone(), message)
+            .hint(format!("e.g. {first} [{unit}], {second} [N·m]"))
     };
     let whole = cells[0].0.start..cells[cells.len() - 1].0.end;
     let [first, second] = cells else {
-        return Err(wrong(&whole, format!("{} columns, not {} and {}", cells.len(), names[0].0, names[1].0)));
+        return Err(wrong(
+            &whole,
+            format!("{} columns, not {} and {}", cells.len(), names[0].0, names[1].0),
+        ));
     };
     let column = |(place, text): &(Range<usize>, &str)| {
         let text = text.trim_matches('"');
         let (name, unit) = text.split_once(['[', '(']).unwrap_or((text, ""));
         let name = name.trim().to_lowercase();
         let Some(quantity) = names.iter().position(|(known, _)| *known == name) else {
-            return Err(wrong(place, format!("\"{text}\" is neither {} nor {}", names[0].0, names[1].0)));
+            return Err(wrong(
+                place,
+                format!("\"{text}\" is neither {} nor {}", names[0].0, names[1].0),
+            ));
         };
         let unit = unit.trim_end_matches([']', ')']).trim();
         let kind = names[quantity].1;

@@ -14,9 +14,9 @@ mod values;
 
 pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
-    BasinsQuestion, DEFAULT_POINTS, FoldsQuestion, ModesQuestion, ParameterRange, Question,
-    ResonanceMethod, ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion,
-    DryFriction, SimulateQuestion, StabilityMethod, Start, Verb,
+    BasinsQuestion, DEFAULT_POINTS, DryFriction, FoldsQuestion, ModesQuestion, ParameterRange,
+    Question, ResonanceMethod, ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion,
+    SimulateQuestion, StabilityMethod, Start, Verb,
 };
 pub use read::read;
 pub use text::{OptionError, QuestionText};

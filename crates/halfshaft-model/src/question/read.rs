@@ -1,7 +1,8 @@
 //! From the words of a question to the question.
 
 use super::kinds::{
-    DryFriction, ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion, SimulateQuestion, Verb,
+    DryFriction, ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion,
+    SimulateQuestion, Verb,
 };
 use super::text::{OptionError, QuestionText};
 use super::values::Reader;
