@@ -154,6 +154,13 @@ fn tell(
              them at this speed"
         ));
     }
+    if let Some(search) = result.shock_search.as_ref().filter(|search| search.undecided > 0) {
+        warnings.push(format!(
+            "{} of {} motions after a shock had reached no response after {} periods; a smaller shock may be \
+             among them: try more --periods",
+            search.undecided, search.motions, question.periods
+        ));
+    }
     if cancelled {
         let detail = "not all initial states were followed".to_owned();
         result.header.termination = Termination::early(Reason::Cancelled, detail);

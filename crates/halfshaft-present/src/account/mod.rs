@@ -21,6 +21,7 @@ pub(crate) mod periodic;
 pub(crate) mod report;
 pub(crate) mod resonance;
 pub(crate) mod shock;
+pub(crate) mod smallest;
 pub(crate) mod statics;
 pub(crate) mod study;
 pub(crate) mod verification;
