@@ -4,8 +4,8 @@ use super::shocks::{Hit, Shock, Shocks};
 use crate::error::AnalysisError;
 
 /// Hits that are followed down to the border, and of these along it.
-const MOST_DOWN: usize = 16;
-const MOST_ALONG: usize = 3;
+const MOST_DOWN: usize = 12;
+const MOST_ALONG: usize = 2;
 /// Parts of a stretch of sizes that are tried at a time.
 const PARTS: usize = 4;
 /// Relative width of a border that is narrow enough, and enough to choose by.

@@ -23,7 +23,7 @@ use crate::error::AnalysisError;
 const ROUGH_MOMENTS: usize = 32;
 const CLOSE_MOMENTS: usize = 64;
 /// Moments of a response of several periods at most.
-const MOST_MOMENTS: usize = 192;
+const MOST_MOMENTS: usize = 96;
 /// Sizes over the whole range, in geometric steps, and the smallest over the largest of them.
 const ROUGH_SIZES: usize = 40;
 const SMALLEST: f64 = 1e-3;
@@ -31,7 +31,7 @@ const SMALLEST: f64 = 1e-3;
 const CLOSE_SIZES: usize = 64;
 /// The close look is taken again as long as it finds a shock smaller than this part of the last.
 const MUCH_SMALLER: f64 = 0.9;
-const MOST_LOOKS: usize = 4;
+const MOST_LOOKS: usize = 3;
 
 /// A shock on a response.
 #[derive(Clone, Copy, Debug)]
@@ -169,8 +169,9 @@ impl<'s> Shocks<'s> {
             }
         }
         let mut found = BTreeMap::new();
+        let step = self.periods(from) / self.count(from, CLOSE_MOMENTS) as f64;
         for (to, hits) in &hits {
-            if let Some(shock) = self.smallest_of(from, *to, hits, 1.0 / CLOSE_MOMENTS as f64)? {
+            if let Some(shock) = self.smallest_of(from, *to, hits, step)? {
                 found.insert(*to, shock);
             }
         }
@@ -186,8 +187,7 @@ impl<'s> Shocks<'s> {
         sizes: &[f64],
         hits: &mut BTreeMap<i32, Vec<Hit>>,
     ) -> Result<(), AnalysisError> {
-        let periods = self.periods(from);
-        let count = (moments * periods as usize).min(MOST_MOMENTS.max(moments));
+        let (periods, count) = (self.periods(from), self.count(from, moments));
         let rows: Vec<(f64, f64)> = (0..2 * count)
             .map(|row| {
                 let moment = periods * ((row / 2) as f64 + offset) / count as f64;
@@ -214,6 +214,13 @@ impl<'s> Shocks<'s> {
             }
         }
         Ok(())
+    }
+
+    /// Moments of the whole response for so many of a period.
+    fn count(&self, from: usize, moments: usize) -> usize {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
+        let all = moments * self.periods(from) as usize;
+        all.min(MOST_MOMENTS.max(moments))
     }
 
     /// Periods of the excitation after which a response repeats.
