@@ -44,6 +44,7 @@ fuzz_target!(|text: &str| {
         window: same(),
         shaft: same(),
         periods: same(),
+        shock: same(),
         rate: same(),
         friction: same(),
         orders: same(),

@@ -23,11 +23,22 @@ fn at(frequency: &str, grid: &str) -> QuestionText {
 type Acceleration = fn(f64, f64, f64) -> f64;
 
 /// State after a number of periods by the classical method of Runge and Kutta.
-fn run(f: Acceleration, (mut x, mut v): (f64, f64), frequency: f64, periods: usize) -> (f64, f64) {
+fn run(f: Acceleration, state: (f64, f64), frequency: f64, periods: usize) -> (f64, f64) {
     const STEPS: usize = 400;
-    let h = std::f64::consts::TAU / frequency / STEPS as f64;
-    for step in 0..periods * STEPS {
-        let t = h * step as f64;
+    let end = std::f64::consts::TAU / frequency * periods as f64;
+    between(f, state, (0.0, end), periods * STEPS)
+}
+
+/// State at the end of a stretch of time by the same method.
+fn between(
+    f: Acceleration,
+    (mut x, mut v): (f64, f64),
+    (from, to): (f64, f64),
+    steps: usize,
+) -> (f64, f64) {
+    let h = (to - from) / steps as f64;
+    for step in 0..steps {
+        let t = from + h * step as f64;
         let (a1, v1) = (f(x, v, t), v);
         let (a2, v2) = (f(x + 0.5 * h * v1, v + 0.5 * h * a1, t + 0.5 * h), v + 0.5 * h * a1);
         let (a3, v3) = (f(x + 0.5 * h * v2, v + 0.5 * h * a2, t + 0.5 * h), v + 0.5 * h * a2);
@@ -203,4 +214,114 @@ fn a_state_leads_to_the_same_response_in_any_grid() {
             assert_eq!(*own, fine.grid.attractor[4 * row][2 * column], "{row} {column}");
         }
     }
+}
+
+/// Which of two responses of the theory's oscillator it settles to after a jump of the rate at a time
+/// of response `from`, by fixed steps: so many a period until it is near one.
+fn settles(found: &BasinsResult, from: usize, (time, jump): (f64, f64), steps: usize) -> usize {
+    let period = std::f64::consts::TAU / 25.75;
+    let start = |index: usize| {
+        let attractor = &found.attractors[index];
+        (attractor.twist[0], attractor.rate[0])
+    };
+    let apart = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).hypot((a.1 - b.1) / 25.75);
+    let near = 0.05 * apart(start(0), start(1));
+    let part = |from: f64, to: f64| ((to - from) / period * steps as f64).ceil().max(1.0) as usize;
+    let (x, v) = between(theory, start(from), (0.0, time), part(0.0, time));
+    let mut state = between(theory, (x, v + jump), (time, period), part(time, period));
+    for _ in 0..3000 {
+        if let Some(index) = (0..2).find(|index| apart(state, start(*index)) < near) {
+            return index;
+        }
+        state = between(theory, state, (0.0, period), steps);
+    }
+    panic!("settles to nothing");
+}
+
+// Source: the same motions by the classical method of Runge and Kutta with fixed steps: a thousandth
+// more throws the line over, a thousandth less does not, and nothing smaller does at any of 64 moments.
+#[test]
+fn the_smallest_shock_is_just_enough_and_no_smaller_one_is() {
+    const SIZES: usize = 16;
+    let found = basins(THEORY, &at("25.75rad/s", "21"));
+    let search = found.shock_search.as_ref().expect("two responses are stable");
+    // Larger shocks throw it over the saddles.
+    let between: Vec<_> = found.shocks.iter().filter(|shock| shock.to.is_some()).collect();
+    let pairs: Vec<_> = between.iter().map(|shock| (shock.from, shock.to)).collect();
+    assert_eq!(pairs, [(0, Some(1)), (1, Some(0))]);
+    let period = std::f64::consts::TAU / 25.75;
+    for shock in between {
+        let (impulse, time) = (shock.impulse.expect("is found"), shock.time.expect("is found"));
+        let phase = shock.phase.expect("is found");
+        assert_eq!((shock.node.as_str(), search.node.as_str()), ("disc", "disc"));
+        assert!((phase - 25.75 * time).abs() < 1e-9 && (0.0..period).contains(&time));
+        assert!(impulse.abs() < search.largest_impulse);
+        let ends = |factor: f64| settles(&found, shock.from, (time, factor * impulse), 400);
+        assert_eq!((ends(1.001), ends(0.999)), (1 - shock.from, shock.from), "{shock:?}");
+        for number in 0..64 * SIZES {
+            let moment = period * ((number % 64) as f64 + 0.25) / 64.0;
+            let size = 0.995 * impulse.abs() * ((number / 64) as f64 + 1.0) / SIZES as f64;
+            for jump in [size, -size] {
+                let end = settles(&found, shock.from, (moment, jump), 64);
+                assert_eq!(end, shock.from, "{jump} at {moment} is less than {shock:?}");
+            }
+        }
+    }
+}
+
+// Source: the promise: neither what is in the grid nor which thread follows a motion has an effect.
+#[test]
+fn the_smallest_shocks_are_the_same_with_any_grid() {
+    let mut question = at("25.75rad/s", "33");
+    question.window = some("-8rad..8rad,-200rad/s..200rad/s");
+    let fine = basins(THEORY, &question);
+    question.grid = some("17x9");
+    let coarse = basins(THEORY, &question);
+    assert_eq!((&fine.shocks, &fine.shock_search), (&coarse.shocks, &coarse.shock_search));
+    assert_eq!(fine.shock_search.map(|search| search.largest_impulse), Some(400.0));
+}
+
+// Source: an ideal gear: an impulse on the fast side is one of `ratio` times the size on the slow one.
+#[test]
+fn a_shock_before_a_gear_is_smaller_by_the_ratio() {
+    let geared = format!(
+        "{THEORY}[[gear]]\nname = \"gear\"\ninput = \"pinion\"\noutput = \"disc\"\nratio = -4\n"
+    );
+    let mut question = at("25.75rad/s", "11");
+    let slow = basins(&geared, &question);
+    question.shock = some("pinion");
+    let fast = basins(&geared, &question);
+    assert!(slow.shocks.len() >= 2 && slow.shocks.len() == fast.shocks.len());
+    for (slow, fast) in slow.shocks.iter().zip(&fast.shocks) {
+        let ratio = slow.impulse.expect("is found") / fast.impulse.expect("is found");
+        assert!((ratio + 4.0).abs() < 1e-5, "{ratio}");
+        assert!((slow.phase.expect("is found") - fast.phase.expect("is found")).abs() < 1e-2);
+        assert_eq!((slow.node.as_str(), fast.node.as_str()), ("disc", "pinion"));
+    }
+}
+
+// Source: a linear line has one response, from which nothing leads away.
+#[test]
+fn a_single_response_cannot_be_left() {
+    let found = basins(&lines::duffing(0.05, 1.0, 0.0, 0.18), &at("0.9rad/s", "11"));
+    assert_eq!(found.attractors.len(), 1);
+    assert!(found.shocks.is_empty() && found.shock_search.is_none());
+}
+
+// Source: energy: it takes k²/(4 |k3|) to reach the saddle at sqrt(k/|k3|), and damping takes
+// c sqrt(|k3|/2) 2/3 (k/|k3|)^(3/2) on the way; the weak excitation helps by its torque times the way
+// and its own speed at most.
+#[test]
+fn the_smallest_shock_over_the_saddle_has_its_energy() {
+    let mut question = at("0.6rad/s", "21");
+    question.window = some("-6rad..6rad,-3rad/s..3rad/s");
+    let found = basins(&lines::duffing(0.01, 1.0, -0.1, 0.01), &question);
+    assert_eq!((found.attractors.len(), found.shocks.len()), (1, 1));
+    let shock = &found.shocks[0];
+    assert_eq!((shock.from, shock.to), (0, None));
+    let saddle = 10.0_f64.sqrt();
+    let energy = 2.5 + 0.01 * 0.05_f64.sqrt() * 2.0 / 3.0 * saddle.powi(3);
+    let (most, least) = ((2.0 * energy).sqrt(), (2.0 * (energy - 0.01 * saddle)).sqrt() - 0.02);
+    let impulse = shock.impulse.expect("is found").abs();
+    assert!(impulse < most && impulse > least, "{least} < {impulse} < {most}");
 }

@@ -77,7 +77,7 @@ fn backlash_follows_the_exact_pieces() {
         ..QuestionText::default()
     };
     let result = simulate(&line, text);
-    let (m, k, c, half) = (5.0, 20000.0, 50.0, 0.392_699_081_698_724_15);
+    let (m, k, c, half) = (5.0, 20000.0, 50.0, std::f64::consts::FRAC_PI_8);
     let (mut state, mut t) = ((4.0 * half, 0.0), 0.0);
     let mut events = Vec::new();
     let piece = |x: f64, v: f64| {

@@ -187,6 +187,14 @@ impl EquationsOfMotion {
         self.twist(index, &direction)
     }
 
+    /// Jumps of the rates of a [`Motion`](crate::Motion)'s coordinates by impulses on the groups, N·m·s.
+    pub fn rate_jumps(&self, impulses: &[f64]) -> Vec<f64> {
+        let speeds: Vec<f64> = impulses.iter().zip(&self.inertia).map(|(p, m)| p / m).collect();
+        let tree = self.network.tree.iter();
+        let mean = self.rigid.as_ref().map(|rigid| rigid.mean(&speeds));
+        tree.map(|edge| self.twist(edge.shaft, &speeds)).chain(mean).collect()
+    }
+
     /// Kinetic energy for group speeds `speeds`, J.
     pub fn kinetic_energy(&self, speeds: &[f64]) -> f64 {
         self.inertia.iter().zip(speeds).map(|(m, v)| 0.5 * m * v * v).sum()

@@ -322,10 +322,7 @@ pub(crate) fn rate_jumps(equations: &EquationsOfMotion, t: f64) -> Option<Vec<f6
     if impulses.iter().all(|impulse| *impulse == 0.0) {
         return None;
     }
-    let speeds: Vec<f64> = impulses.iter().zip(&equations.inertia).map(|(p, m)| p / m).collect();
-    let tree = equations.network.tree.iter();
-    let mean = equations.rigid.as_ref().map(|rigid| rigid.mean(&speeds));
-    Some(tree.map(|edge| equations.twist(edge.shaft, &speeds)).chain(mean).collect())
+    Some(equations.rate_jumps(&impulses))
 }
 
 /// Torque of one source at time `t`.

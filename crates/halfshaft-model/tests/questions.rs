@@ -256,12 +256,14 @@ fn basins_have_one_speed_a_window_and_a_grid() {
         window: some("-90deg..90deg, -2rad/s..3rad/s"),
         shaft: some("half-shaft"),
         periods: some("500"),
+        shock: some("half-shaft flange"),
         ..QuestionText::default()
     };
     let Ok(Question::Basins(question)) = asked(&text) else { panic!("is sound") };
     let turn = std::f64::consts::PI;
     assert!((question.frequency - 4.0 * turn).abs() < 1e-12);
     assert_eq!((question.grid, question.periods), ((30, 20), 500));
+    assert_eq!(question.shock.as_deref(), Some("half-shaft flange"));
     let [twist, rate] = question.window.expect("is given");
     assert!((twist.0 + 0.5 * turn).abs() < 1e-12 && (twist.1 - 0.5 * turn).abs() < 1e-12);
     assert_eq!(rate, (-2.0, 3.0));
@@ -271,11 +273,12 @@ fn basins_have_one_speed_a_window_and_a_grid() {
         grid: some("30x"),
         window: some("1rad..2rad"),
         shaft: some("halfshaft"),
+        shock: some("half-shaft"),
         ..QuestionText::default()
     };
     let errors = asked(&wrong).expect_err("is wrong");
     let options: Vec<&str> = errors.iter().map(|error| error.option).collect();
-    assert_eq!(options, ["frequency", "shaft", "window", "grid"]);
+    assert_eq!(options, ["frequency", "shaft", "window", "grid", "shock"]);
     assert!(errors.iter().all(|error| !error.hint.is_empty()), "{errors:?}");
     assert_eq!(asked(&QuestionText::default()).expect_err("has no speed").len(), 1);
 }

@@ -24,6 +24,49 @@ pub struct BasinsResult {
     /// Share of the window whose motion had reached no response when it was given up.
     #[serde(default)]
     pub undecided: f64,
+    /// The smallest shock from each response to each other one; none where there is one response only.
+    #[serde(default)]
+    pub shocks: Vec<SmallestShock>,
+    /// How these were looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shock_search: Option<ShockSearch>,
+}
+
+/// The smallest impulse of torque on a node that throws the line from one response to another.
+///
+/// Where none was found up to [`ShockSearch::largest_impulse`], impulse, phase and time are missing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SmallestShock {
+    /// The response that is left, by its place among the attractors.
+    pub from: usize,
+    /// The response that is reached; `None` for a motion that grows beyond all measure.
+    pub to: Option<usize>,
+    /// The impulse with its sign, N·m·s.
+    pub impulse: Option<f64>,
+    /// Angle of the excitation's common period at which it acts, from 0 to 2π rad.
+    pub phase: Option<f64>,
+    /// The same in time, s: from the first of the states that stand at `from`, so that it may be
+    /// more than one period of the excitation for a response of several.
+    pub time: Option<f64>,
+    /// The node that it acts on.
+    pub node: String,
+}
+
+/// How the smallest shocks were looked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ShockSearch {
+    /// The node that they act on.
+    pub node: String,
+    /// The largest impulse tried, N·m·s: as much energy as a change of the varied shaft's rate of
+    /// twist by the whole height of the window.
+    pub largest_impulse: f64,
+    /// Moments of a period of the excitation that were tried before the best ones were made finer.
+    pub phases: usize,
+    /// Motions that were followed.
+    pub motions: usize,
+    /// Those among them that had reached no response when they were given up.
+    #[serde(default)]
+    pub undecided: usize,
 }
 
 impl BasinsResult {

@@ -298,14 +298,14 @@ pub struct HistoryResult {
     pub events: Vec<HistoryEvent>,
     /// Spectra over the orders of the excitation, where a speed was given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub orders: Option<OrderMap>,
+    pub orders: Option<Box<OrderMap>>,
     /// State whenever a revolution of the excitation begins: `time`, then twist and rate of each
     /// connection.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Table>,
     /// What `shock` says beyond its history.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shock: Option<ShockDetails>,
+    pub shock: Option<Box<ShockDetails>>,
 }
 
 impl HistoryResult {

@@ -31,7 +31,7 @@ mod study;
 mod table;
 
 pub use answer::Answer;
-pub use basins::{Attractor, BasinGrid, BasinsResult};
+pub use basins::{Attractor, BasinGrid, BasinsResult, ShockSearch, SmallestShock};
 pub use bifurcation::{BifurcationResult, StrobedBranch, SweepJump};
 pub use check::{
     CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,

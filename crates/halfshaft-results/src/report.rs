@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    CheckResult, FoldsResult, Header, HistoryResult, ModesResult, ResonanceResult, StaticResult,
+    BasinsResult, CheckResult, FoldsResult, Header, HistoryResult, ModesResult, ResonanceResult,
+    StaticResult,
 };
 
 /// A section that the report cannot have, and why.
@@ -58,6 +59,9 @@ pub struct ReportResult {
     /// The same in closed form, checked by integration.
     #[serde(default)]
     pub closed_form: Option<ResonanceResult>,
+    /// Which start leads where, and the smallest shocks, at a speed with several stable responses.
+    #[serde(default)]
+    pub basins: Option<BasinsResult>,
     /// Values by every method side by side.
     #[serde(default)]
     pub levels: Vec<LevelRow>,

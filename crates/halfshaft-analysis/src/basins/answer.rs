@@ -9,6 +9,7 @@ use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{Attractor, BasinGrid, BasinsResult, Reason, Termination};
 
 use super::search::{ESCAPED, Search, UNDECIDED};
+use super::shocks::{self, Shocks};
 use super::window::Window;
 use crate::error::AnalysisError;
 use crate::harmonic_balance::{AtSpeed, Response};
@@ -48,19 +49,27 @@ pub(crate) fn solve(
         }
         led = search.lead(window.count(), |k| window.state(k), false, observer)?;
     }
-    let mut result = assemble(line, question, &window, &search, &led.outcomes);
+    let (mut result, order) = assemble(line, question, &window, &search, &led.outcomes);
+    // A single response can be left too where motions run away.
+    let elsewhere = search.attractors.len() > 1 || led.outcomes.contains(&ESCAPED);
+    if elsewhere && !led.cancelled {
+        let node = question.shock.as_deref().unwrap_or_else(|| shocks::usual_node(line));
+        if let Some(shocks) = Shocks::new(&search, node, &window, observer) {
+            (result.shocks, result.shock_search) = shocks.all(&order)?;
+        }
+    }
     tell(&mut result, question, &responses, led.cancelled);
     Ok(result)
 }
 
-/// The result, the attractor of the largest share first.
+/// The result, the attractor of the largest share first, and their order by that.
 fn assemble(
     line: &Driveline,
     question: &BasinsQuestion,
     window: &Window,
     search: &Search<'_>,
     outcomes: &[i32],
-) -> BasinsResult {
+) -> (BasinsResult, Vec<usize>) {
     let all = outcomes.len().max(1) as f64;
     let share = |of: i32| outcomes.iter().filter(|outcome| **outcome == of).count() as f64 / all;
     let shares: Vec<f64> = (0..).take(search.attractors.len()).map(share).collect();
@@ -78,7 +87,7 @@ fn assemble(
         Err(_) => *outcome,
     };
     let rows = outcomes.chunks(window.twists.len());
-    BasinsResult {
+    let result = BasinsResult {
         header: header(line, &Question::Basins(question.clone())),
         frequency: question.frequency,
         shaft: window.shaft.clone(),
@@ -90,7 +99,10 @@ fn assemble(
         },
         escaped: share(ESCAPED),
         undecided: share(UNDECIDED),
-    }
+        shocks: Vec::new(),
+        shock_search: None,
+    };
+    (result, order)
 }
 
 fn attractor(window: &Window, search: &Search<'_>, response: &Response, share: f64) -> Attractor {
@@ -140,6 +152,13 @@ fn tell(
         warnings.push(format!(
             "{found} of the responses were found by letting the line run alone: `resonance` does not list \
              them at this speed"
+        ));
+    }
+    if let Some(search) = result.shock_search.as_ref().filter(|search| search.undecided > 0) {
+        warnings.push(format!(
+            "{} of {} motions after a shock had reached no response after {} periods; a smaller shock may be \
+             among them: try more --periods",
+            search.undecided, search.motions, question.periods
         ));
     }
     if cancelled {

@@ -11,13 +11,16 @@
 //! | `answer` | question to result |
 //! | `frame` | states of the line and their distance |
 //! | `settling` | one motion until it is caught, repeats or runs away |
+//! | `shocks`, `border` | the smallest impulse from one response to another: where, and how small |
 //! | `search` | attractors, their neighbourhoods, where many states lead to |
 //! | `window` | the initial states |
 
 mod answer;
+mod border;
 mod frame;
 mod search;
 mod settling;
+mod shocks;
 mod window;
 
 pub(crate) use answer::solve;

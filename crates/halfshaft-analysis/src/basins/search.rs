@@ -7,7 +7,7 @@ use halfshaft_numerics::observer::{Observer, Part, Silent};
 use halfshaft_numerics::ode::Tolerance;
 
 use super::frame::Frame;
-use super::settling::{Memory, Outcome, Settle, Trap};
+use super::settling::{Beginning, Memory, Outcome, Settle, Trap};
 use crate::error::AnalysisError;
 use crate::harmonic_balance::{AtSpeed, Response};
 
@@ -24,7 +24,7 @@ const CHUNK: usize = 16_384;
 
 /// Attractors, and the means to follow motions to them.
 pub(super) struct Search<'s> {
-    at: &'s AtSpeed,
+    pub(super) at: &'s AtSpeed,
     line: LaneLine,
     parameters: Vec<f64>,
     pub(super) frame: Frame,
@@ -91,6 +91,19 @@ impl<'s> Search<'s> {
         repeating: bool,
         observer: &dyn Observer,
     ) -> Result<Led, AnalysisError> {
+        let begin = |index: usize| Beginning { state: start(index), shock: None };
+        self.follow(count, begin, &[], repeating, observer)
+    }
+
+    /// Follows motions that begin as told; `jumps` is what an impulse of 1 N·m·s does to the rates.
+    pub(super) fn follow(
+        &self,
+        count: usize,
+        begin: impl Fn(usize) -> Beginning + Sync,
+        jumps: &[f64],
+        repeating: bool,
+        observer: &dyn Observer,
+    ) -> Result<Led, AnalysisError> {
         let mut led =
             Led { outcomes: Vec::with_capacity(count), loose: Vec::new(), cancelled: false };
         for from in (0..count).step_by(CHUNK) {
@@ -98,7 +111,8 @@ impl<'s> Search<'s> {
                 line: &self.line,
                 frame: &self.frame,
                 parameters: &self.parameters,
-                start: |index: usize| start(from + index),
+                begin: |index: usize| begin(from + index),
+                jumps,
                 traps: &self.traps,
                 period: self.at.period(),
                 most_periods: self.most_periods,

@@ -35,6 +35,17 @@ pub(super) struct Memory {
     period: usize,
     /// The last states at the beginning of a period, in turn, where repetition is looked for.
     recent: Vec<Vec<f64>>,
+    /// The impulse that is still to come, N·m·s.
+    shock: Option<f64>,
+}
+
+/// How a motion begins.
+#[derive(Clone, Debug)]
+pub(super) struct Beginning {
+    /// State at time 0.
+    pub(super) state: Vec<f64>,
+    /// Time and size of an impulse within the first period, s and N·m·s.
+    pub(super) shock: Option<(f64, f64)>,
 }
 
 /// Motions from many states at time 0.
@@ -43,8 +54,10 @@ pub(super) struct Settle<'s, F> {
     pub(super) frame: &'s Frame,
     /// Parameters of the line at the excitation speed.
     pub(super) parameters: &'s [f64],
-    /// State of each motion at time 0.
-    pub(super) start: F,
+    /// The beginning of each motion.
+    pub(super) begin: F,
+    /// Jump of each rate by an impulse of 1 N·m·s.
+    pub(super) jumps: &'s [f64],
     pub(super) traps: &'s [Trap],
     /// Period of the excitation, s.
     pub(super) period: f64,
@@ -63,16 +76,36 @@ const REPEATS: f64 = 1e-4;
 /// Periods that pass before a repetition counts: what decays slowly seems to repeat.
 const SETTLING: usize = 20;
 
-impl<F: Fn(usize) -> Vec<f64> + Sync> Task for Settle<'_, F> {
+impl<F: Fn(usize) -> Beginning + Sync> Task for Settle<'_, F> {
     type Memory = Memory;
 
     fn begin(&self, index: usize, trajectory: &mut Trajectory<'_>) -> (Memory, Plan) {
+        let Beginning { state, shock } = (self.begin)(index);
         trajectory.time = 0.0;
-        trajectory.state.copy_from_slice(&(self.start)(index));
+        trajectory.state.copy_from_slice(&state);
         trajectory.parameters.copy_from_slice(self.parameters);
+        let mut memory =
+            Memory { outcome: Outcome::Undecided, period: 0, recent: vec![], shock: None };
+        let plan = match shock {
+            Some((time, impulse)) if time > 0.0 => {
+                memory.shock = Some(impulse);
+                Plan::to(time)
+            }
+            shock => {
+                self.strike(shock.map_or(0.0, |(_, impulse)| impulse), trajectory.state);
+                self.on()
+            }
+        };
         self.line.settle(trajectory.state, trajectory.parameters);
-        let memory = Memory { outcome: Outcome::Undecided, period: 0, recent: Vec::new() };
-        (memory, Plan { goal: self.most_periods as f64 * self.period, watch: self.period })
+        (memory, plan)
+    }
+
+    fn arrived(&self, memory: &mut Memory, trajectory: &mut Trajectory<'_>) -> Option<Plan> {
+        // The only other goal is the end.
+        let impulse = memory.shock.take()?;
+        self.strike(impulse, trajectory.state);
+        self.line.settle(trajectory.state, trajectory.parameters);
+        Some(self.on())
     }
 
     fn watched(&self, memory: &mut Memory, _: f64, state: &[f64]) -> Option<f64> {
@@ -84,6 +117,18 @@ impl<F: Fn(usize) -> Vec<f64> + Sync> Task for Settle<'_, F> {
 }
 
 impl<F> Settle<'_, F> {
+    /// To the end, with a look whenever a period begins.
+    fn on(&self) -> Plan {
+        Plan { goal: self.most_periods as f64 * self.period, watch: self.period }
+    }
+
+    /// Adds what an impulse does to the rates.
+    fn strike(&self, impulse: f64, state: &mut [f64]) {
+        let half = state.len() / 2;
+        let rates = state[half..].iter_mut().zip(self.jumps);
+        rates.for_each(|(rate, jump)| *rate += impulse * jump);
+    }
+
     fn judge(&self, memory: &mut Memory, state: &[f64]) -> Outcome {
         let size = self.frame.size(state);
         if size.is_nan() || size > self.most_size {

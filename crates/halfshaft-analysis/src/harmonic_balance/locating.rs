@@ -52,6 +52,16 @@ impl Test<'_> {
     }
 }
 
+/// What is known of a test when its zero is closed in on.
+struct Known {
+    /// Parts with their values.
+    seen: Vec<(f64, f64)>,
+    /// The response whose factors are the ones last made.
+    near: Option<(Sample, f64)>,
+    /// Part of the segment to which the zero is wanted.
+    close: f64,
+}
+
 /// A zero of a test.
 struct Zero {
     sample: Sample,
@@ -120,7 +130,8 @@ impl Tracer<'_, '_> {
         let (at_high, last) = at(self, judge, bracket.1)?;
         if at_low * at_high <= 0.0 {
             let near = (last, bracket.1);
-            return self.root(judge, what, segment, bracket, (seen, Some(near), close));
+            let known = Known { seen, near: Some(near), close };
+            return self.root(judge, what, segment, bracket, known);
         }
         let side = |tracer: &mut Self, judge: &mut Judge, sample: &Sample| match what {
             Test::Crossing(crossing) => {
@@ -133,7 +144,7 @@ impl Tracer<'_, '_> {
             let (value, sample) = at(self, judge, part)?;
             Some((value, side(self, judge, &sample)))
         })?;
-        self.root(judge, what, segment, bracket, (seen, None, close))
+        self.root(judge, what, segment, bracket, Known { seen, near: None, close })
     }
 
     /// The zero in a bracket, given the values seen and the response whose factors are the ones last made.
@@ -143,7 +154,7 @@ impl Tracer<'_, '_> {
         what: &Test<'_>,
         segment: &Segment,
         (low, high): (f64, f64),
-        (mut seen, mut near, close): (Vec<(f64, f64)>, Option<(Sample, f64)>, f64),
+        Known { mut seen, mut near, close }: Known,
     ) -> Option<Zero> {
         let settings = RootSettings {
             absolute_tolerance: close,

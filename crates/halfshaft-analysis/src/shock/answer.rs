@@ -130,7 +130,7 @@ impl ShockProblem<'_> {
             events,
             orders: None,
             section: None,
-            shock: Some(shock),
+            shock: Some(Box::new(shock)),
         })
     }
 
@@ -230,7 +230,7 @@ impl ShockProblem<'_> {
             events: Vec::new(),
             orders: None,
             section: None,
-            shock: Some(shock),
+            shock: Some(Box::new(shock)),
         })
     }
 
@@ -309,7 +309,7 @@ impl ShockProblem<'_> {
             events: Vec::new(),
             orders: None,
             section: None,
-            shock: Some(shock),
+            shock: Some(Box::new(shock)),
         })
     }
 }

@@ -78,7 +78,8 @@ pub(crate) fn solve(
             events.listed.len()
         ));
     }
-    let (orders, section) = (order_map(&equations, &recorder), section(&recorder));
+    let orders = order_map(&equations, &recorder).map(Box::new);
+    let section = section(&recorder);
     let (columns, events) = (history_columns(recorder), events.listed);
     Ok(HistoryResult { header, columns, metrics, events, orders, section, shock: None })
 }

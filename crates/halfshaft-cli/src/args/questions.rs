@@ -96,10 +96,14 @@ pub enum Ask {
     /// of one shaft at time 0 by the response that they lead to. Everything else starts at rest in the
     /// equilibrium, while the torques act from time 0 on. Every state of the grid is followed until a
     /// stable response catches it.
+    ///
+    /// Where there are several responses, also the smallest shock that throws the line from each to
+    /// each other: an impulse of torque on one node, at the worst moment, in the worse direction.
     #[command(after_help = "Examples:
   halfshaft basins --frequency 4.12Hz
   halfshaft basins my-line.toml --frequency 26rad/s --grid 400 --out basins.png
-  halfshaft basins my-line.toml --frequency 26rad/s --window \"-5rad..5rad,-120rad/s..120rad/s\"")]
+  halfshaft basins my-line.toml --frequency 26rad/s --window \"-5rad..5rad,-120rad/s..120rad/s\"
+  halfshaft basins my-line.toml --frequency 26rad/s --shock vehicle")]
     Basins(Basins),
     /// What the line settles to on a stepwise sweep, seen once a period: the bifurcation diagram
     ///
@@ -237,6 +241,10 @@ pub struct Basins {
     /// Periods of the excitation after which a motion is given up [default: 2000]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub periods: Option<String>,
+    /// Node on which the smallest shock from one response to another acts [default: that of the first
+    /// torque with an order]
+    #[arg(long, value_name = "NODE")]
+    pub shock: Option<String>,
 }
 
 impl Basins {
@@ -248,6 +256,7 @@ impl Basins {
             shaft: self.shaft.clone(),
             tolerance: self.tolerance.clone(),
             periods: self.periods.clone(),
+            shock: self.shock.clone(),
             ..QuestionText::default()
         }
     }

@@ -4,6 +4,7 @@ use super::kinds::BasinsQuestion;
 use super::text::OptionError;
 use super::values::Reader;
 use crate::diagnostic::did_you_mean;
+use crate::driveline::Topology;
 use crate::units::{QuantityKind, Sign};
 
 /// Most twists, and most rates, of a grid.
@@ -22,6 +23,7 @@ impl Reader<'_> {
             periods: self
                 .count("periods", text.periods.as_deref(), 10, 10_000_000)
                 .unwrap_or(default.periods),
+            shock: self.shocked_node(),
         }
     }
 
@@ -52,6 +54,20 @@ impl Reader<'_> {
         let hint = did_you_mean(written, names.iter().copied())
             .unwrap_or_else(|| format!("choose from {}", names.join(", ")));
         self.errors.push(OptionError::new("shaft", written, "no such shaft", hint));
+        None
+    }
+
+    /// The node that shocks act on, which must be one of the line's.
+    fn shocked_node(&mut self) -> Option<String> {
+        let written = self.text.shock.as_deref()?;
+        let nodes = Topology::of(self.line).map(|topology| topology.nodes).unwrap_or_default();
+        let names: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();
+        if names.contains(&written) {
+            return Some(written.to_owned());
+        }
+        let hint = did_you_mean(written, names.iter().copied())
+            .unwrap_or_else(|| format!("a shock acts on a node: choose from {}", names.join(", ")));
+        self.errors.push(OptionError::new("shock", written, "the line has no such node", hint));
         None
     }
 

@@ -460,6 +460,9 @@ pub struct BasinsQuestion {
     pub tolerance: f64,
     /// Periods of the excitation after which a motion that has reached no response is given up.
     pub periods: usize,
+    /// The node on which the smallest shock from one response to another acts; `None` for that of the
+    /// first torque with an order.
+    pub shock: Option<String>,
 }
 
 impl Default for BasinsQuestion {
@@ -471,6 +474,7 @@ impl Default for BasinsQuestion {
             grid: (201, 201),
             tolerance: 1e-8,
             periods: 2000,
+            shock: None,
         }
     }
 }

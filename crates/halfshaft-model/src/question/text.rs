@@ -54,6 +54,8 @@ pub struct QuestionText {
     pub shaft: Option<String>,
     /// `--periods`.
     pub periods: Option<String>,
+    /// `--shock`.
+    pub shock: Option<String>,
     /// `--rate`.
     pub rate: Option<String>,
     /// `--integrator`.

@@ -40,6 +40,7 @@ pub static QUESTION: TableSpec = TableSpec {
         option("window", "As --window."),
         option("shaft", "As --shaft."),
         option("periods", "As --periods."),
+        option("shock", "As --shock."),
         option("rate", "As --rate."),
         option("friction", "As --friction."),
         option("orders", "As --orders."),

@@ -344,6 +344,7 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         window: option("window"),
         shaft: option("shaft"),
         periods: option("periods"),
+        shock: option("shock"),
         rate: option("rate"),
         friction: option("friction"),
         orders: option("orders"),

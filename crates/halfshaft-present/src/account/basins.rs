@@ -11,6 +11,7 @@ pub(crate) fn account(result: &BasinsResult) -> Account {
     account.text(told(result));
     account.figure(crate::figures::basins::ID);
     account.grid(table(result));
+    account.append(super::smallest::account(result));
     if result.attractors.len() > 1 {
         account.note(
             "A slow sweep of the speed follows one response until it ends; a shock throws the line from \

@@ -18,6 +18,7 @@ pub(crate) fn title(analysis: &str) -> String {
         "closed-form" => "Resonance in closed form",
         "levels" => "The methods side by side",
         "folds" => "Fold curves",
+        "basins" => "Which start leads to which response",
         "run" => "Study",
         "report" => "Report",
         other => return plain(other),

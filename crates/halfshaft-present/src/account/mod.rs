@@ -22,6 +22,7 @@ pub(crate) mod periodic;
 pub(crate) mod report;
 pub(crate) mod resonance;
 pub(crate) mod shock;
+pub(crate) mod smallest;
 pub(crate) mod statics;
 pub(crate) mod study;
 pub(crate) mod verification;
@@ -140,6 +141,7 @@ pub(crate) fn headers(answer: &Answer) -> Vec<&Header> {
             headers.extend(report.shock.as_ref().map(|part| &part.header));
             let resonances = [&report.resonance, &report.first_harmonic, &report.closed_form];
             headers.extend(resonances.into_iter().flatten().map(|part| &part.header));
+            headers.extend(report.basins.as_ref().map(|part| &part.header));
             headers.extend(report.folds.iter().map(|part| &part.header));
             headers.extend(report.closed_folds.iter().map(|part| &part.header));
         }

@@ -82,6 +82,7 @@ fn of_report(report: &ReportResult) -> Vec<Figure> {
     // The closed form has a section of its own where another method leads.
     let closed = report.closed_form.iter().filter(|_| report.resonance.is_some());
     figures.extend(closed.flat_map(resonance::figures));
+    figures.extend(report.basins.as_ref().map(basins::figure));
     figures.extend(planes(report));
     figures
 }

@@ -42,7 +42,7 @@ pub(super) fn figures(result: &HistoryResult) -> Vec<Figure> {
         matches!(ends, (Some(a), Some(b)) if (a - b).abs() > STEADY * a.abs())
     };
     let mut figures = Vec::new();
-    match result.orders.as_ref().filter(moves) {
+    match result.orders.as_deref().filter(moves) {
         Some(map) => figures.extend([waterfall(map), cuts(map)]),
         None => figures.extend(portrait(result)),
     }

@@ -8,7 +8,9 @@ use super::blocks;
 use super::figure::{Figures, figure, still};
 use super::shell::Sheet;
 use super::single::{basis, warnings};
-use crate::account::{Account, check, folds, head, levels, modes, resonance, shock, statics};
+use crate::account::{
+    Account, basins, check, folds, head, levels, modes, resonance, shock, statics,
+};
 use crate::findings::{self, COMFORTABLE, Finding, Standing};
 use crate::words::{bound, capital, number, plain};
 use crate::{figures, sketch};
@@ -33,6 +35,7 @@ pub(super) fn sheet(answer: &Answer, report: &ReportResult) -> Sheet {
     add("levels", Some(levels::account(report)).filter(|account| !account.blocks.is_empty()));
     let closed = report.closed_form.as_ref().filter(|_| report.resonance.is_some());
     add("closed-form", closed.map(resonance::account));
+    add("basins", report.basins.as_ref().map(basins::account));
     if !report.folds.is_empty() || !report.closed_folds.is_empty() {
         let body = planes(report, &mut left);
         sections.push(Section::new("folds", head::title("folds"), body));

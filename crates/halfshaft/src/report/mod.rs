@@ -3,14 +3,15 @@
 use halfshaft_analysis::{AnalysisError, ask};
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{
-    FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod, ResonanceQuestion,
-    ShockQuestion,
+    BasinsQuestion, FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod,
+    ResonanceQuestion, ShockQuestion,
 };
 use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
     Answer, FoldsResult, Header, MissingSection, Reason, ReportResult, ResonanceResult, Termination,
 };
 
+mod coexisting;
 mod levels;
 mod planes;
 
@@ -32,6 +33,7 @@ pub fn report(line: &Driveline, observer: &dyn Observer) -> Result<ReportResult,
         resonance: None,
         first_harmonic: None,
         closed_form: None,
+        basins: None,
         levels: Vec::new(),
         folds: Vec::new(),
         closed_folds: Vec::new(),
@@ -50,8 +52,13 @@ struct Reporter<'r> {
 }
 
 /// Sections that a report asks for, for its progress: statics, modes, shock, three methods of the
-/// resonance, and the fold planes by two methods.
-const SECTIONS: usize = 12;
+/// resonance, basins, and the fold planes by two methods.
+const SECTIONS: usize = 13;
+
+/// Twists and rates of the picture of basins: fine enough for the eye.
+const BASIN_SIDE: usize = 120;
+/// Relative tolerance of the motions in it.
+const BASIN_TOLERANCE: f64 = 1e-6;
 
 /// Error of the waveform that is tolerated along fold curves: it is not seen in a figure.
 const FOLD_TOLERANCE: f64 = 1e-4;
@@ -75,6 +82,7 @@ impl Reporter<'_> {
             self.resonance("first-harmonic", ResonanceMethod::FirstHarmonic);
         self.report.closed_form = self.resonance("closed-form", ResonanceMethod::Averaged);
         self.say_once();
+        self.basins();
         self.folds();
         if !self.observer.cancelled() {
             self.report.levels = levels::levels(self.line, self.report, self.observer);
@@ -102,6 +110,22 @@ impl Reporter<'_> {
             return None;
         }
         Some(resonance)
+    }
+
+    /// Which start leads where, amid the speeds at which more than one response is stable.
+    fn basins(&mut self) {
+        let branches =
+            self.report.resonance.as_ref().map(|resonance| resonance.branches.as_slice());
+        let Some(frequency) = branches.and_then(coexisting::speed) else { return };
+        let question = BasinsQuestion {
+            frequency,
+            grid: (BASIN_SIDE, BASIN_SIDE),
+            tolerance: BASIN_TOLERANCE,
+            ..BasinsQuestion::default()
+        };
+        if let Some(Answer::Basins(basins)) = self.ask("basins", &Question::Basins(question)) {
+            self.report.basins = Some(basins);
+        }
     }
 
     /// Where no method has a resonance, that is told once: for the reason of other sections if it is

@@ -98,6 +98,7 @@ pub fn static_report(line: &Driveline) -> Answer {
         shock: None,
         resonance: None,
         first_harmonic: None,
+        basins: None,
         closed_form: None,
         levels: Vec::new(),
         folds: Vec::new(),
