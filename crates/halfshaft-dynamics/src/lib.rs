@@ -21,6 +21,7 @@
 mod equations;
 mod error;
 mod excitation;
+mod jacobian;
 pub mod lanes;
 pub mod laws;
 mod linear;

@@ -10,15 +10,17 @@ mod kinds;
 mod parameter_axis;
 mod periodic;
 mod read;
+mod simulate;
 mod text;
 mod values;
 
 pub use bifurcation::{BifurcationQuestion, SweepDirection};
 pub use channel::{Channel, ChannelQuantity, InitialValue, parse_initial};
 pub use kinds::{
-    BasinsQuestion, DEFAULT_POINTS, DryFriction, FoldsQuestion, IntegratorChoice, ModesQuestion,
-    ParameterRange, Question, ResonanceMethod, ResonanceQuestion, ShockEquation, ShockMethod,
-    ShockQuestion, SimulateQuestion, StabilityMethod, Start, Verb,
+    BasinsQuestion, DEFAULT_POINTS, FoldsQuestion, ModesQuestion, ParameterRange, Question,
+    ResonanceMethod, ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion, StabilityMethod,
+    Start, Verb,
 };
 pub use read::read;
+pub use simulate::{DryFriction, IntegratorChoice, SimulateQuestion};
 pub use text::{OptionError, QuestionText};

@@ -1,10 +1,8 @@
 //! From the words of a question to the question.
 
 use super::channel::parse_channel;
-use super::kinds::{
-    DryFriction, IntegratorChoice, ModesQuestion, Question, ShockEquation, ShockMethod,
-    ShockQuestion, SimulateQuestion, Verb,
-};
+use super::kinds::{ModesQuestion, Question, ShockEquation, ShockMethod, ShockQuestion, Verb};
+use super::simulate::{DryFriction, IntegratorChoice, SimulateQuestion};
 use super::text::{OptionError, QuestionText};
 use super::values::Reader;
 use crate::driveline::Driveline;
