@@ -17,6 +17,11 @@ def environment(folder):
     return preparation.environment(folder, PEERS)
 
 
+def example(name):
+    """The release build of another example."""
+    return built("halfshaft-dynamics", name) / "examples" / name
+
+
 def halfshaft(given=None):
     """The release build of the example that times ensembles."""
     if given:

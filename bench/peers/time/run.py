@@ -46,7 +46,7 @@ class Side:
     def __init__(self, name, tolerance, count, command, out, option=""):
         self.name, self.tolerance, self.count, self.out = name, tolerance, count, out
         self.command = [*map(str, command), f"{option}{out}"]
-        self.rates, self.states, self.remark = [], None, ""
+        self.rates, self.states, self.remark, self.steps = [], None, "", None
 
     def once(self):
         """Runs once, unless it has failed before."""
@@ -60,6 +60,7 @@ class Side:
             self.remark = str(failure).strip().splitlines()[-1]
             return
         self.rates.append(said["per_processor_second"])
+        self.steps = said.get("steps")
         self.states = np.fromfile(self.out, "<f8").reshape(-1, 2)
 
 
@@ -126,6 +127,60 @@ def table(all_sides, ends_of):
     return "\n".join(lines)
 
 
+# Multiplications and additions of one step of degree n: two products of series (x² and x² x), each half of
+# n² pairs, the linear terms and the excitation by recurrence, the sums at the end of the step.
+def operations(degree):
+    """Floating-point operations of one step of one oscillator, counted from the recurrence."""
+    pairs = degree * (degree + 1) / 2
+    return 2 * (2 * pairs + 3 * degree + 2 * degree + 2 * degree)
+
+
+def peak():
+    """Double-precision operations a second of one core at the clock the system tells: two fused
+    multiply-adds of the widest registers a cycle."""
+    text = Path("/proc/cpuinfo").read_text() if Path("/proc/cpuinfo").exists() else ""
+    clocks = [float(line.split(":")[1]) for line in text.splitlines() if line.startswith("cpu MHz")]
+    if not clocks:
+        return None
+    wide = 8 if "avx512f" in text else 4 if "avx2" in text else 2
+    return max(clocks) * 1e6 * wide * 2 * 2
+
+
+def share(all_sides):
+    """How much of the peak the fastest row of halfshaft reaches, in words."""
+    own = [side for side in all_sides if side.name.startswith("halfshaft, degree") and side.rates and side.steps]
+    most = peak()
+    if not own or not most:
+        return "The share of the processor's peak is not known here."
+    best = max(own, key=lambda side: statistics.median(side.rates) * side.steps * operations(degree_of(side)))
+    done = statistics.median(best.rates) * best.steps * operations(degree_of(best))
+    return (f"Arithmetic of {best.name}: {best.steps:.0f} steps a trajectory, {operations(degree_of(best)):.0f} operations "
+            f"a step, {done / 1e9:.1f} GFlop/s, {100 * done / most:.0f} % of {most / 1e9:.0f} GFlop/s (two fused "
+            "multiply-adds of the widest registers a cycle).")
+
+
+def degree_of(side):
+    """Degree of the series of a row of halfshaft."""
+    return int(side.name.split("degree")[1].split()[0])
+
+
+def shocks(python, peers):
+    """Single shock responses of both programs, in words."""
+    said = {}
+    program = environments.example("shock_times")
+    said["halfshaft"] = json.loads(quietly([str(program), "2000", "1e-10"], "halfshaft").splitlines()[-1])
+    if "heyoka" in peers:
+        command = [str(python), str(FOLDER / "heyoka_shock.py"), "2000", "1e-10"]
+        said["heyoka"] = json.loads(quietly(command, "heyoka").splitlines()[-1])
+    lines = [f"{name}: {one['microseconds']:.1f} µs, {one['steps']} steps, twist at the end {one['twist']:.13f} rad"
+             for name, one in said.items()]
+    if "heyoka" in said:
+        ratio = said["heyoka"]["microseconds"] / said["halfshaft"]["microseconds"]
+        apart = abs(said["heyoka"]["twist"] - said["halfshaft"]["twist"])
+        lines.append(f"ratio {ratio:.2f}, ends {apart:.1e} rad apart")
+    return "Single shock response, 5 s at 1e-10, one motion on one lane, median of 2000:\n\n- " + "\n- ".join(lines)
+
+
 def threads(program, count):
     """Rates by the clock with one and two threads."""
     lines = []
@@ -165,7 +220,8 @@ def main():
             side.once()
     text = (f"# {chosen.count} forced Duffing oscillators over {PERIODS} periods\n\nProcessor time on one core, medians "
             f"of {chosen.repeats}; tight runs of halfshaft and heyoka are {apart:.1e} apart.\n\n"
-            + table(all_sides, ends_of) + "\n\nBy the clock: " + ", ".join(
+            + table(all_sides, ends_of) + "\n\n" + share(all_sides) + "\n\n"
+            + shocks(python, chosen.peers.split(",")) + "\n\nBy the clock: " + ", ".join(
                 f"{rate:.0f} per second with {number} thread{'s' if number > 1 else ''}"
                 for number, rate in scaling) + ".\n")
     print(text)

@@ -161,9 +161,8 @@ fn tell(result: &mut BifurcationResult, question: &BifurcationQuestion, rows: &[
     let creeping = count(&|row| row.seen.as_ref().is_ok_and(|seen| seen.settling));
     if creeping > 0 {
         result.header.warnings.push(format!(
-            "at {creeping} values the motion was still settling after {} periods, though neighbouring \
-             motions come together; try more --transient",
-            question.transient
+            "at {creeping} values the motion was still settling after all its periods, though neighbouring \
+             motions come together; try more --transient"
         ));
     }
     if !whole {

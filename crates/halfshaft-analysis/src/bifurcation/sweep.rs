@@ -5,6 +5,7 @@ use std::rc::Rc;
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::question::{BifurcationQuestion, SweepDirection};
 use halfshaft_model::{ChangeError, Driveline, Parameter};
+use halfshaft_numerics::dense::eigenvalues;
 use halfshaft_numerics::observer::Observer;
 
 use super::stroboscope::{Ended, Look, Stroboscope};
@@ -78,11 +79,8 @@ pub(super) fn sweep(
     question: &BifurcationQuestion,
     observer: &dyn Observer,
 ) -> Result<Vec<Row>, AnalysisError> {
-    let limits = Limits {
-        transient: question.transient,
-        points: question.points,
-        tolerance: question.tolerance,
-    };
+    let mut limits =
+        Limits { transient: 0, points: question.points, tolerance: question.tolerance };
     let values = values(question, family.speeds);
     let mut rows: Vec<Row> = Vec::with_capacity(values.len());
     let mut state: Option<Vec<f64>> = None;
@@ -90,6 +88,7 @@ pub(super) fn sweep(
         observer.progress(index as f64 / values.len() as f64);
         let (equations, frequency) = family.at(*value)?;
         let mut strobe = Stroboscope::new(&equations, family.look, frequency);
+        limits.transient = question.transient.unwrap_or_else(|| settling_periods(&mut strobe));
         let start = started(state.take(), &strobe.rest);
         let seen = visit(&mut strobe, &start, limits, observer);
         if matches!(seen, Err(Ended::Cancelled)) {
@@ -101,6 +100,24 @@ pub(super) fn sweep(
         rows.push(Row { value: *value, direction: *direction, seen, points, branch: None });
     }
     Ok(rows)
+}
+
+/// Part of a deviation that is left after the time for settling, where nobody says how long that is.
+const LEFT: f64 = 1e-6;
+/// Fewest and most periods for settling then.
+const SETTLING: (f64, f64) = (200.0, 20_000.0);
+
+/// Periods after which a small motion about rest has died out but for a part.
+fn settling_periods(strobe: &mut Stroboscope<'_>) -> usize {
+    let rest = strobe.rest.clone();
+    let matrix = strobe.varied(&rest, &mut (0.0, 0.0)).map(|(_, matrix)| matrix);
+    let multipliers = matrix.ok().and_then(|matrix| eigenvalues(&matrix).ok()).unwrap_or_default();
+    let largest = multipliers.iter().map(|m| m.modulus()).fold(0.0, f64::max);
+    let periods = LEFT.ln() / largest.ln();
+    let periods = if periods.is_finite() && periods > 0.0 { periods } else { SETTLING.0 };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let count = periods.clamp(SETTLING.0, SETTLING.1).ceil() as usize;
+    count
 }
 
 /// The state to start from: that of the value before, or rest. Whether the speed of the whole belongs to

@@ -276,7 +276,8 @@ pub struct Bifurcation {
     /// Number of values, both ends included [default: 200]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub steps: Option<String>,
-    /// Periods of the excitation for settling at each value, at most [default: 200]
+    /// Periods of the excitation for settling at each value, at most [default: what the line's damping takes,
+    /// from 200 to 20000]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub transient: Option<String>,
     /// Periods that are recorded of a motion that does not repeat [default: 64]

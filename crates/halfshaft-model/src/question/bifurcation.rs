@@ -45,8 +45,9 @@ pub struct BifurcationQuestion {
     pub parameter: Option<ParameterRange>,
     /// Number of values, both ends included.
     pub steps: usize,
-    /// Periods of the excitation that a motion has for settling at each value.
-    pub transient: usize,
+    /// Periods of the excitation that a motion has for settling at each value; `None` for as many as the
+    /// damping of the line takes to leave a millionth.
+    pub transient: Option<usize>,
     /// Periods that are recorded of a motion that does not come to repeat.
     pub points: usize,
     /// The shaft whose twist and rate of twist are recorded; `None` for the first nonlinear one.
@@ -65,7 +66,7 @@ impl Default for BifurcationQuestion {
             frequency: None,
             parameter: None,
             steps: 200,
-            transient: 200,
+            transient: None,
             points: 64,
             shaft: None,
             tolerance: 1e-9,
@@ -88,8 +89,8 @@ impl Reader<'_> {
             self.count(option, written.as_deref(), least, most).unwrap_or(default)
         };
         let steps = count("steps", &text.steps, 2, MOST_STEPS, default.steps);
-        let transient = count("transient", &text.transient, 0, MOST_PERIODS, default.transient);
         let points = count("points", &text.points, 1, MOST_PERIODS, default.points);
+        let transient = self.count("transient", text.transient.as_deref(), 0, MOST_PERIODS);
         if steps.saturating_mul(points) > MOST_POINTS {
             let message = format!("{steps} values of {points} points each are too many");
             let hint = format!("at most {MOST_POINTS} together: take fewer --steps or --points");

@@ -81,19 +81,23 @@ pub(crate) fn torque(name: &str, metrics: &ShaftMetrics) -> String {
 
 /// How it rings and when it is over.
 pub(crate) fn settling(metrics: &ShaftMetrics) -> String {
-    let rings = match (metrics.oscillation_frequency, metrics.decay_rate) {
-        (Some(frequency), Some(decay)) => {
-            let damping = metrics.damping_ratio.map_or_else(String::new, |ratio| {
-                format!(" ({} of critical damping)", percent(ratio, 3))
-            });
-            format!(
-                "It rings at {} and decays at {}{damping}",
-                frequency_words(frequency),
-                quantity(decay, 4, "1/s")
-            )
-        }
-        _ => "It turns round too rarely to tell a frequency".to_owned(),
-    };
+    let rings =
+        match (metrics.oscillation_frequency, metrics.decay_rate.filter(|decay| *decay > 0.0)) {
+            (Some(frequency), Some(decay)) => {
+                let damping = metrics.damping_ratio.map_or_else(String::new, |ratio| {
+                    format!(" ({} of critical damping)", percent(ratio, 3))
+                });
+                format!(
+                    "It rings at {} and decays at {}{damping}",
+                    frequency_words(frequency),
+                    quantity(decay, 4, "1/s")
+                )
+            }
+            (Some(frequency), None) => {
+                format!("It rings at {} and does not decay", frequency_words(frequency))
+            }
+            _ => "It turns round too rarely to tell a frequency".to_owned(),
+        };
     let settled = metrics.settling_time.map_or_else(
         || "it has not settled within 5 % of its largest peak in the time computed".to_owned(),
         |time| {
