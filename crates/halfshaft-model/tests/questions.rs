@@ -301,7 +301,7 @@ fn a_bifurcation_sweeps_speeds_or_a_number_of_the_model() {
     let turn = std::f64::consts::TAU;
     let (from, to) = question.frequency.expect("is given");
     assert!((from - turn).abs() < 1e-12 && (to - 2.0 * turn).abs() < 1e-12);
-    assert_eq!((question.steps, question.transient, question.points), (11, 0, 7));
+    assert_eq!((question.steps, question.transient, question.points), (11, Some(0), 7));
     assert!(!question.branches);
     let over = QuestionText {
         frequency: some("4Hz"),

@@ -50,7 +50,7 @@ pub(crate) fn solve(
         result.branches = overlaid(line, question, &family, &mut rows, &mut result, &part)?;
     }
     write(&mut result, &family, &rows);
-    tell(&mut result, question, &rows, whole);
+    tell(&mut result, &rows, whole);
     Ok(result)
 }
 
@@ -140,7 +140,7 @@ fn write(result: &mut BifurcationResult, family: &Family<'_>, rows: &[Row]) {
 }
 
 /// What the reader must know of the answer.
-fn tell(result: &mut BifurcationResult, question: &BifurcationQuestion, rows: &[Row], whole: bool) {
+fn tell(result: &mut BifurcationResult, rows: &[Row], whole: bool) {
     result.header.assumptions.push(
         "each motion goes on from the end of that at the value before; the first begins at rest, and so \
          does the one after a motion that ran away"
