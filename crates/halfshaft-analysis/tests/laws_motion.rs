@@ -161,6 +161,7 @@ fn friction_takes_a_constant_step_off_the_swing() {
         tolerance: some("1e-9"),
         duration: some("0.5s"),
         step: some("1ms"),
+        friction: some("smoothed"),
         initial: vec!["s.twist=0.1 rad".to_owned()],
         ..QuestionText::default()
     };

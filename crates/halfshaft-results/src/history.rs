@@ -68,10 +68,10 @@ pub struct ShaftMetrics {
     /// Peak torque over static torque; `None` where the shaft was unloaded.
     pub dynamic_factor: Option<f64>,
     /// Torque when all has settled, N·m; `None` where nothing settles.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub final_torque: Option<f64>,
     /// First peak beyond the final twist over the way to that, from the twist before.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub overshoot: Option<f64>,
     /// When the twist stays within 5 % of its largest peak for good, s; `None` where it does
     /// not settle in the time simulated.
@@ -171,7 +171,7 @@ pub struct HistoryEvent {
     #[serde(deserialize_with = "crate::number::read")]
     pub twist_rate: f64,
     /// Of a contact: the kinetic energy in the rate of twist, J.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub energy: Option<f64>,
 }
 
