@@ -1,6 +1,6 @@
 //! Times single shock responses, for the comparison in `bench/peers/time`.
 //!
-//! `shock_times COUNT TOLERANCE`
+//! `shock_times COUNT TOLERANCE [DEGREE]`
 //!
 //! The published shock equation of the two-mass driveline as a line of one inertia: from 1 rad at rest over
 //! 5 s, one motion after the other, each for itself and on one lane. Prints one line: microseconds a response,
@@ -33,12 +33,15 @@ damping = 90
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [count, tolerance] = arguments.as_slice() else {
+    let [count, tolerance, more @ ..] = arguments.as_slice() else {
         return Err("COUNT TOLERANCE are needed".into());
     };
     let (count, tolerance): (usize, f64) = (count.parse()?, tolerance.parse()?);
     let mut settings = Settings { threads: 1, ..Settings::with_tolerance(tolerance) };
     settings.lanes = Some(1);
+    if let Some(degree) = more.first() {
+        settings.degree = degree.parse()?;
+    }
     let (line, _) = read_model(Source::new("shock.toml", LINE), &[])
         .map_err(|errors| errors.plain().to_string())?;
     let equations = EquationsOfMotion::new(&line)?;
