@@ -207,10 +207,13 @@ impl Motion<'_> {
     }
 
     fn slide(&mut self, index: usize, forward: bool) {
+        self.set_sliding(index, if forward { Sliding::Forward } else { Sliding::Backward });
+    }
+
+    fn set_sliding(&mut self, index: usize, sliding: Sliding) {
         let Some(modes) = self.modes() else { return };
         let mut modes = Modes::clone(modes);
-        modes.list[index].sliding =
-            Some(if forward { Sliding::Forward } else { Sliding::Backward });
+        modes.list[index].sliding = Some(sliding);
         self.set_modes(Arc::new(modes));
     }
 
@@ -245,17 +248,13 @@ impl Motion<'_> {
         let up = border.kind == BorderKind::Upper;
         let after = if up { before + 1 } else { before.saturating_sub(1) };
         modes.enter(equations, index, after);
-        let piece = modes.list[index].piece();
-        let positive = |piece: Option<&crate::laws::Piece>| {
-            piece.is_some_and(|piece| crate::modes::inside(piece) > 0.0)
-        };
         let law = &equations.connections[index].law;
         let kind = match law {
             TorqueLaw::Clearance(law) if law.half_gap() == 0.0 => EventKind::Contact { drive: up },
             TorqueLaw::Clearance(_) => match (before, after) {
                 (0, _) => EventKind::Separation { drive: false },
                 (2, _) => EventKind::Separation { drive: true },
-                (_, after) => EventKind::Contact { drive: after == 2 && positive(piece) },
+                (_, after) => EventKind::Contact { drive: after == 2 },
             },
             TorqueLaw::OneSided(_) if up => EventKind::Contact { drive: true },
             TorqueLaw::OneSided(_) => EventKind::Separation { drive: true },
@@ -271,10 +270,7 @@ impl Motion<'_> {
 
     /// A sliding connection at rest sticks if its friction suffices, else it slides as it is driven.
     fn come_to_rest(&mut self, index: usize, t: f64, state: &[f64]) -> EventKind {
-        let Some(modes) = self.modes() else { return EventKind::Point };
-        let mut modes = Modes::clone(modes);
-        modes.list[index].sliding = Some(Sliding::Stuck);
-        self.set_modes(Arc::new(modes));
+        self.set_sliding(index, Sliding::Stuck);
         let mut scratch = vec![0.0; state.len()];
         self.derivative(t, state, &mut scratch);
         let torque = self.friction()[index];

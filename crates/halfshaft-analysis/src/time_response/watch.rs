@@ -90,10 +90,9 @@ impl<'l> Watch<'l> {
             .collect();
         for part in 0..PARTS {
             let ends = (time(part), time(part + 1));
-            let here = (0..self.borders.len())
-                .filter_map(|at| Some((at, self.passage(dense, at, part, ends, ON * scales[at])?)));
-            // What is found borrows nothing, but looking does.
-            let here: Vec<(usize, f64)> = here.collect::<Vec<_>>();
+            let here: Vec<(usize, f64)> = (0..self.borders.len())
+                .filter_map(|at| Some((at, self.passage(dense, at, part, ends, ON * scales[at])?)))
+                .collect();
             if let Some((at, time)) = here.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
                 return Some(Passage { border: self.borders[at], time, at });
             }
