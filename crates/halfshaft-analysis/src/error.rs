@@ -59,6 +59,20 @@ pub enum AnalysisError {
         /// Why.
         reason: String,
     },
+    /// A node without inertia in a question about motion.
+    #[error("\"{node}\" has no inertia, so nothing says how it accelerates")]
+    Massless {
+        /// The node.
+        node: String,
+    },
+    /// Damping that only linear vibrations know.
+    #[error("{what} is damping of linear vibrations: `{verb}` cannot take it")]
+    LinearDamping {
+        /// The damping.
+        what: String,
+        /// What was asked.
+        verb: &'static str,
+    },
     /// A shock without anything that disturbs.
     #[error("nothing disturbs the line")]
     NoDisturbance,
@@ -104,6 +118,14 @@ impl AnalysisError {
                 "`halfshaft simulate` takes any line, one speed at a time"
             }
             Self::MethodDoesNotFit { .. } => "--method full takes any line",
+            Self::Massless { .. } => {
+                "give the node an [[inertia]], or join the shafts at it to one; `static`, `modes`, \
+                 `campbell` and `forced` take nodes without inertia"
+            }
+            Self::LinearDamping { .. } => {
+                "give the shafts a damping instead and leave it out, e.g. --set line.modal_damping=0 \
+                 --set line.loss_factor=0; `modes` tells the damping ratios that result"
+            }
             Self::NoDisturbance => {
                 "give a torque of the model a pulse, or ask `halfshaft shock` with \
                  --initial \"SHAFT.twist=1 rad\", SHAFT being a shaft of the model"

@@ -9,6 +9,8 @@
 //! | `check` | is the model sound? | reduced inertias, ratios |
 //! | `equilibrium` | `static` | all roots of the torque laws |
 //! | `modal` | `modes` | symmetric eigenproblem without the rigid-body motion |
+//! | `campbell` | `campbell` | modes over the orders of the excitation |
+//! | `forced` | `forced` | dynamic stiffness of the line, order by order |
 //! | `time_response` | `simulate` | order 8, dense output, energy balance |
 //! | `shock` | `shock` | the same, single equations, multiple scales |
 //! | `basins` | `basins` | many motions side by side |
@@ -20,10 +22,12 @@
 mod averaging;
 mod basins;
 mod bifurcation;
+mod campbell;
 mod check;
 mod equilibrium;
 mod error;
 mod first_harmonic;
+mod forced;
 mod harmonic_balance;
 mod header;
 mod modal;
@@ -33,6 +37,7 @@ mod shooting;
 mod time_response;
 mod verification;
 
+use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{FoldsQuestion, Question, ResonanceMethod};
 use halfshaft_numerics::observer::Observer;
@@ -68,10 +73,13 @@ pub fn ask(
     question: &Question,
     observer: &dyn Observer,
 ) -> Result<Answer, AnalysisError> {
+    suits(line, question)?;
     Ok(match question {
         Question::Check => Answer::Check(check::solve(line)?),
         Question::Static => Answer::Static(equilibrium::solve(line, observer)?),
         Question::Modes(question) => Answer::Modes(modal::solve(line, question)?),
+        Question::Campbell(question) => Answer::Campbell(campbell::solve(line, question)?),
+        Question::Forced(question) => Answer::Forced(forced::solve(line, question, observer)?),
         Question::Simulate(question) => {
             Answer::History(time_response::solve(line, question, observer)?)
         }
@@ -103,4 +111,26 @@ pub fn ask(
             }
         },
     })
+}
+
+/// Refuses what a question about motion beyond small vibrations cannot take.
+fn suits(line: &Driveline, question: &Question) -> Result<(), AnalysisError> {
+    if matches!(
+        question,
+        Question::Check
+            | Question::Static
+            | Question::Modes(_)
+            | Question::Campbell(_)
+            | Question::Forced(_)
+    ) {
+        return Ok(());
+    }
+    let equations = EquationsOfMotion::new(line)?;
+    if let Some(node) = equations.massless() {
+        return Err(AnalysisError::Massless { node: node.to_owned() });
+    }
+    match equations.linear_damping() {
+        Some(what) => Err(AnalysisError::LinearDamping { what, verb: question.verb().name() }),
+        None => Ok(()),
+    }
 }

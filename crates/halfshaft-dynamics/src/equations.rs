@@ -28,6 +28,11 @@ pub struct Connection {
     pub friction: Option<Friction>,
     /// When the friction comes to bear, for motions in time; `None` from the beginning.
     pub engagement: Option<Engagement>,
+    /// Loss factor of hysteretic damping, for linear vibrations.
+    pub loss_factor: f64,
+    /// Torque over the relative acceleration of the ends, kg·m²: of pieces of bars with consistent
+    /// inertia ([`EquationsOfMotion::consistent`]), else zero.
+    pub inertance: f64,
 }
 
 impl Connection {
@@ -84,6 +89,8 @@ pub struct EquationsOfMotion {
     pub excitation: Excitation,
     /// Number of elastic meshes of gears, the last of the connections.
     pub meshes: usize,
+    /// Damping ratio of every elastic mode beside what dampers do, for linear vibrations.
+    pub modal_damping: f64,
 }
 
 impl EquationsOfMotion {
@@ -100,11 +107,23 @@ impl EquationsOfMotion {
         }
     }
 
-    /// The equations of motion of `line`.
+    /// The equations of motion of `line`, bars with half of the inertia of each piece at either end.
     ///
     /// # Errors
     /// [`DynamicsError`] for a line that validation would not have passed.
     pub fn new(line: &Driveline) -> Result<Self, DynamicsError> {
+        let mut equations = Self::consistent(line)?;
+        equations.connections.iter_mut().for_each(|connection| connection.inertance = 0.0);
+        Ok(equations)
+    }
+
+    /// The same with consistent inertia of bars: what it differs by from halves at the ends is the
+    /// inertance of the connections. For linear vibrations.
+    ///
+    /// # Errors
+    /// [`DynamicsError`] for a line that validation would not have passed.
+    pub fn consistent(line: &Driveline) -> Result<Self, DynamicsError> {
+        let line = &*line.expanded();
         let topology = Topology::of(line)?;
         let network = Network::of(line, &topology);
         let nodes = node_places(line, &topology);
@@ -116,7 +135,7 @@ impl EquationsOfMotion {
             inertia[node.group] += node.ratio * node.ratio * element.inertia_kg_m2;
             ground_damping[node.group] += node.ratio * node.ratio * element.damping_nm_s_per_rad;
         }
-        if inertia.iter().any(|value| *value <= 0.0) || !network.unreached.is_empty() {
+        if inertia.iter().all(|value| *value <= 0.0) || !network.unreached.is_empty() {
             return Err(DynamicsError::Degenerate);
         }
         let rigid = (!network.grounded)
@@ -133,7 +152,24 @@ impl EquationsOfMotion {
             rigid,
             excitation,
             meshes: line.meshes().count(),
+            modal_damping: line.whole().modal_damping,
         })
+    }
+
+    /// The first node that turns without any inertia, which only linear vibrations and statics can do
+    /// without.
+    pub fn massless(&self) -> Option<&str> {
+        let group = self.inertia.iter().position(|inertia| *inertia <= 0.0)?;
+        self.reference.get(group).map(|node| self.nodes[*node].name.as_str())
+    }
+
+    /// What damps linear vibrations only, in words: a loss factor or modal damping.
+    pub fn linear_damping(&self) -> Option<String> {
+        if self.modal_damping > 0.0 {
+            return Some("modal damping of the whole line".to_owned());
+        }
+        let lossy = self.connections.iter().find(|connection| connection.loss_factor > 0.0)?;
+        Some(format!("the loss factor of \"{}\"", lossy.name))
     }
 
     /// Number of groups, the degrees of freedom.
@@ -218,6 +254,7 @@ fn node_places(line: &Driveline, topology: &Topology) -> Vec<NodePlace> {
 
 /// Shafts and then elastic meshes of gears, as in the network.
 fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
+    let loss = |own: f64| if own > 0.0 { own } else { line.whole().loss_factor };
     let shafts = line.shafts().iter().map(|shaft| Connection {
         name: shaft.name.clone(),
         from: None,
@@ -230,16 +267,20 @@ fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
             speed_rad_s: shaft.friction_speed_rad_s,
         }),
         engagement: shaft.engagement,
+        loss_factor: loss(shaft.loss_factor),
+        inertance: shaft.inertance_kg_m2,
     });
     let meshes = line.meshes().map(|gear| Connection {
         name: gear.name.clone(),
         from: None,
         to: None,
         law: law_of_mesh(gear),
-        damping: gear.damping_nm_s_per_rad.unwrap_or(0.0),
+        damping: gear.mesh_at_output().map_or(0.0, |[_, damping, _]| damping),
         damps_in_gap: gear.damps_in_gap,
         friction: None,
         engagement: None,
+        loss_factor: loss(0.0),
+        inertance: 0.0,
     });
     let placed = |(connection, [from, to]): (Connection, &[End; 2])| Connection {
         from: *from,

@@ -3,6 +3,8 @@
 use halfshaft_model::elements::{Harmonic, MeanTorque, Pulse, PulseShape, TorqueTable};
 use halfshaft_model::{Driveline, Topology};
 
+use crate::engine::{self, EngineTorque};
+
 /// One external torque of the line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
@@ -89,7 +91,7 @@ impl Active {
 /// All external torques of a line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Excitation {
-    /// One entry a torque, in file order.
+    /// One entry a torque, in file order, and then those of engines.
     pub sources: Vec<Source>,
 }
 
@@ -116,7 +118,9 @@ impl Excitation {
                 reference_speed: torque.reference_speed_rad_s.unwrap_or(1.0),
             })
         };
-        Self { sources: line.torques().iter().filter_map(source).collect() }
+        let engines = line.engines().iter().flat_map(engine::torques);
+        let of_engines = engines.filter_map(|torque| of_engine(torque, topology));
+        Self { sources: line.torques().iter().filter_map(source).chain(of_engines).collect() }
     }
 
     /// Mean torques on the groups, N·m.
@@ -222,4 +226,22 @@ impl Excitation {
         };
         self.sources.iter().map(of).sum()
     }
+}
+
+/// A torque of an engine as a source.
+fn of_engine(torque: EngineTorque, topology: &Topology) -> Option<Source> {
+    let (group, ratio) = topology.place(&torque.node)?;
+    Some(Source {
+        name: torque.name,
+        group,
+        ratio,
+        mean: torque.mean,
+        balances: false,
+        harmonics: torque.harmonics,
+        own_frequency: None,
+        pulse: None,
+        table: None,
+        speed_power: if torque.grows { 2.0 } else { 0.0 },
+        reference_speed: 1.0,
+    })
 }

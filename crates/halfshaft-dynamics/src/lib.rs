@@ -11,13 +11,14 @@
 //!
 //! - [`laws`]: torque over twist, one file a law.
 //! - [`EquationsOfMotion`]: inertias, connections, rigid-body motion, mean torques.
-//! - [`Excitation`]: torques over time.
+//! - [`Excitation`]: torques over time; [`engine`]: the orders of piston engines.
 //! - [`Motion`]: the same as a first-order system for the integrators, in twists of the
 //!   spanning tree and the mean angle, with work and heat beside it.
 //! - [`Modes`]: what connections do between two events (contact, stages, stick and slip), and where that
 //!   ends.
 //! - [`lanes`]: many motions at once, by Taylor series over vector registers.
 
+pub mod engine;
 mod equations;
 mod error;
 mod excitation;

@@ -8,8 +8,9 @@
 use crate::diagnostic::did_you_mean;
 use crate::driveline::Driveline;
 use crate::elements::{
-    ENGAGEMENT, GEAR, HARMONIC, Harmonic, INERTIA, MEASURED, MeanTorque, PULSE, SHAFT, STAGE,
-    Shaft, TORQUE, TORQUE_TABLE, Torque,
+    CRANK_PRESSURE, CRANK_TORQUE, DAMPER, ENGAGEMENT, ENGINE, Engine, GEAR, HARMONIC, Harmonic,
+    INERTIA, MEASURED, MeanTorque, PULSE, SHAFT, STAGE, Shaft, TORQUE, TORQUE_TABLE, Torque,
+    WHOLE_LINE, WHOLE_LINE_NAME,
 };
 use crate::format::{TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
@@ -21,6 +22,9 @@ enum List {
     Gear,
     Shaft,
     Torque,
+    Damper,
+    Engine,
+    WholeLine,
 }
 
 /// One numeric key of one element, found by its address.
@@ -135,6 +139,9 @@ fn elements(line: &Driveline) -> impl Iterator<Item = (List, usize, &str)> {
         .chain(named(List::Gear, &line.gears, |e| &e.name))
         .chain(named(List::Shaft, &line.shafts, |e| &e.name))
         .chain(named(List::Torque, &line.torques, |e| &e.name))
+        .chain(named(List::Damper, &line.dampers, |e| &e.name))
+        .chain(named(List::Engine, &line.engines, |e| &e.name))
+        .chain([(List::WholeLine, 0, WHOLE_LINE_NAME)])
 }
 
 fn table_of(list: List) -> &'static TableSpec {
@@ -143,6 +150,9 @@ fn table_of(list: List) -> &'static TableSpec {
         List::Gear => &GEAR,
         List::Shaft => &SHAFT,
         List::Torque => &TORQUE,
+        List::Damper => &DAMPER,
+        List::Engine => &ENGINE,
+        List::WholeLine => &WHOLE_LINE,
     }
 }
 
@@ -157,7 +167,14 @@ struct Number {
 fn numbers(line: &Driveline, list: List, index: usize) -> Vec<Number> {
     let mut numbers = numbers_of(table_of(list), "");
     match list {
-        List::Inertia => {}
+        List::Inertia | List::Damper | List::WholeLine => {}
+        List::Engine => {
+            if let Some(engine) = line.engines.get(index) {
+                numbers.extend(numbers_of_engine(engine));
+                let mut engine = engine.clone();
+                numbers.retain(|number| engine.parameter_mut(&number.key).is_some());
+            }
+        }
         List::Gear => {
             if let Some(gear) = line.gears.get(index) {
                 numbers.extend(listed(&GEAR, "ratios", "ratios", gear.ratios.len()));
@@ -227,6 +244,20 @@ fn numbers_of_torque(torque: &Torque) -> Vec<Number> {
     numbers
 }
 
+/// The numbers of firing angles and points.
+fn numbers_of_engine(engine: &Engine) -> Vec<Number> {
+    let cylinders = engine.firing_rad.len();
+    let mut numbers = listed(&ENGINE, "firing_angles", "firing_angles", cylinders);
+    if let Some(table) = &engine.pressure {
+        let count = table.values.len();
+        numbers.extend(listed(&CRANK_PRESSURE, "pressure", "pressure.pressure", count));
+    }
+    if let Some(table) = &engine.torque {
+        numbers.extend(listed(&CRANK_TORQUE, "torque", "torque.torque", table.values.len()));
+    }
+    numbers
+}
+
 /// The numbers of a table that this version offers.
 fn numbers_of(table: &TableSpec, prefix: &str) -> Vec<Number> {
     let offered = table.keys.iter().filter(|key| key.refused.is_none());
@@ -258,6 +289,9 @@ impl Parameter {
             List::Gear => line.gears.get(index)?.clone().parameter_mut(key).copied(),
             List::Shaft => line.shafts.get(index)?.clone().parameter_mut(key).copied(),
             List::Torque => line.torques.get(index)?.clone().parameter_mut(key).copied(),
+            List::Damper => line.dampers.get(index)?.clone().parameter_mut(key).copied(),
+            List::Engine => line.engines.get(index)?.clone().parameter_mut(key).copied(),
+            List::WholeLine => line.whole.clone().parameter_mut(key).copied(),
         }
     }
 
@@ -328,6 +362,9 @@ impl Parameter {
             List::Gear => line.gears.get_mut(self.index)?.parameter_mut(&self.key),
             List::Shaft => line.shafts.get_mut(self.index)?.parameter_mut(&self.key),
             List::Torque => line.torques.get_mut(self.index)?.parameter_mut(&self.key),
+            List::Damper => line.dampers.get_mut(self.index)?.parameter_mut(&self.key),
+            List::Engine => line.engines.get_mut(self.index)?.parameter_mut(&self.key),
+            List::WholeLine => line.whole.parameter_mut(&self.key),
         }
     }
 }

@@ -13,7 +13,8 @@
 //! # Several unknowns
 //!
 //! [`dense`] holds the matrix type, linear systems and eigenvalues. [`newton`] solves small systems
-//! of nonlinear equations, damped, and tells its whole history.
+//! of nonlinear equations, damped, and tells its whole history. [`pencil`] finds the lowest eigenvalues
+//! of large symmetric systems on a graph.
 //!
 //! # Time
 //!
@@ -46,6 +47,7 @@ pub mod harmonics;
 pub mod newton;
 pub mod observer;
 pub mod ode;
+pub mod pencil;
 pub mod polynomial;
 mod small_list;
 

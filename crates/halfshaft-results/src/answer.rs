@@ -4,8 +4,9 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::{
-    BasinsResult, BifurcationResult, CheckResult, Column, FoldsResult, Header, HistoryResult,
-    ModesResult, Named, ReportResult, ResonanceResult, StaticResult, StudyResult, Table,
+    BasinsResult, BifurcationResult, CampbellResult, CheckResult, Column, FoldsResult,
+    ForcedResult, Header, HistoryResult, ModesResult, Named, ReportResult, ResonanceResult,
+    StaticResult, StudyResult, Table,
 };
 
 /// Any result; which one, its `analysis` says.
@@ -18,6 +19,10 @@ pub enum Answer {
     Static(StaticResult),
     /// Of `modes`.
     Modes(ModesResult),
+    /// Of `campbell`.
+    Campbell(CampbellResult),
+    /// Of `forced`.
+    Forced(ForcedResult),
     /// Of `simulate` and `shock`.
     History(HistoryResult),
     /// Of `resonance`.
@@ -43,6 +48,8 @@ impl<'de> Deserialize<'de> for Answer {
             "check" => serde_json::from_value(value).map(Self::Check),
             "static" => serde_json::from_value(value).map(Self::Static),
             "modes" => serde_json::from_value(value).map(Self::Modes),
+            "campbell" => serde_json::from_value(value).map(Self::Campbell),
+            "forced" => serde_json::from_value(value).map(Self::Forced),
             "simulate" | "shock" => serde_json::from_value(value).map(Self::History),
             "resonance" => serde_json::from_value(value).map(Self::Resonance),
             "folds" => serde_json::from_value(value).map(Self::Folds),
@@ -66,6 +73,8 @@ impl Answer {
             Self::Check(result) => &result.header,
             Self::Static(result) => &result.header,
             Self::Modes(result) => &result.header,
+            Self::Campbell(result) => &result.header,
+            Self::Forced(result) => &result.header,
             Self::History(result) => &result.header,
             Self::Resonance(result) => &result.header,
             Self::Folds(result) => &result.header,
@@ -84,6 +93,9 @@ impl Answer {
             Self::Bifurcation(result) => vec![&mut result.columns],
             Self::Resonance(result) => {
                 result.branches.iter_mut().map(|branch| &mut branch.columns).collect()
+            }
+            Self::Forced(result) => {
+                result.gears.iter_mut().map(|gear| &mut gear.table.columns).collect()
             }
             Self::Folds(result) => {
                 result.curves.iter_mut().map(|table| &mut table.columns).collect()
@@ -104,6 +116,12 @@ impl Answer {
             Self::Folds(result) => numbered("curve", result.curves.iter().cloned()),
             Self::Static(result) => vec![("equilibria".to_owned(), equilibria(result))],
             Self::Modes(result) => vec![("modes".to_owned(), modes(result))],
+            Self::Campbell(result) => {
+                numbered("gear", result.gears.iter().map(CampbellResult::table))
+            }
+            Self::Forced(result) => {
+                numbered("gear", result.gears.iter().map(|gear| gear.table.clone()))
+            }
             Self::Basins(result) => vec![("basins".to_owned(), result.table())],
             Self::Bifurcation(result) => vec![("points".to_owned(), result.table())],
             Self::Check(_) | Self::Study(_) | Self::Report(_) => Vec::new(),

@@ -16,9 +16,11 @@
 mod answer;
 mod basins;
 mod bifurcation;
+mod campbell;
 mod check;
 mod equilibrium;
 mod folds;
+mod forced;
 mod header;
 mod history;
 pub mod io;
@@ -33,6 +35,7 @@ mod table;
 pub use answer::Answer;
 pub use basins::{Attractor, BasinGrid, BasinsResult, ShockSearch, SmallestShock};
 pub use bifurcation::{BifurcationResult, StrobedBranch, SweepJump};
+pub use campbell::{CampbellGear, CampbellResult, CriticalSpeed};
 pub use check::{
     CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
     CheckedShaft, CheckedTorque, Member, NonlinearTerm, ReducedInertia,
@@ -41,12 +44,13 @@ pub use equilibrium::{
     Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, SharedLoad, StaticResult,
 };
 pub use folds::{FoldsResult, ResponseCount};
+pub use forced::{EngineOrders, ForcedGear, ForcedHeat, ForcedPeak, ForcedResult};
 pub use header::{Header, ModelIdentity, Reason, Termination};
 pub use history::{
     ChannelMetrics, ConnectionEvents, EnergyBalance, HistoryEvent, HistoryMetrics, HistoryResult,
     IntegratorUse, MethodRow, NodeMetrics, OrderMap, ShaftMetrics, ShockDetails,
 };
-pub use modes::{Mode, ModesResult};
+pub use modes::{Gear, Mode, ModesInGear, ModesResult};
 pub use report::{LevelRow, MissingSection, ReportResult};
 pub use resonance::{Branch, Effort, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
 pub use special::{SpecialKind, SpecialPoint, Status};

@@ -45,4 +45,38 @@ pub struct ModesResult {
     pub equilibrium: Equilibrium,
     /// Modes by ascending frequency, the rigid-body mode included.
     pub modes: Vec<Mode>,
+    /// How many elastic modes the line has, where not all are listed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elastic_modes: Option<usize>,
+    /// The same gear by gear, where a gearbox lists its ratios.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gears: Vec<ModesInGear>,
+}
+
+/// A gear that a gearbox can be switched to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gear {
+    /// Name of the gearbox; `None` for the line as it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gearbox: Option<String>,
+    /// Its ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ratio: Option<f64>,
+}
+
+/// The lowest elastic modes in one gear.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModesInGear {
+    /// The gear.
+    #[serde(flatten)]
+    pub gear: Gear,
+    /// Undamped natural frequencies, ascending, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub frequency: Vec<f64>,
+    /// Frequencies of the damped oscillations, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub damped_frequency: Vec<f64>,
+    /// Damping over critical damping.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub damping_ratio: Vec<f64>,
 }

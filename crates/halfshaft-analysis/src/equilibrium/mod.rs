@@ -16,7 +16,7 @@ use halfshaft_model::elements::Pulse;
 use halfshaft_results::{Limit, ShaftCapacity};
 
 use crate::error::AnalysisError;
-use crate::modal::elastic::ElasticSpace;
+use crate::modal::elastic::lowest_modes;
 
 pub(crate) use answer::{overload_message, solve};
 pub(crate) use capacity::{capacity, carries, snap_limits};
@@ -130,7 +130,7 @@ fn find_up_to(equations: &EquationsOfMotion, most: usize) -> Result<RestStates, 
         if overload.is_none() && !solutions.iter().any(|solution| solution.stable) {
             overload = Some(cluster.overload(equations));
         }
-        combinations = combine(&combinations, cluster.members(), &solutions, most);
+        combinations = combine(combinations, cluster.members(), &solutions, most);
     }
     #[expect(clippy::cast_precision_loss, reason = "bounded by the list's limit")]
     let left_out = (count > combinations.len() as f64).then_some(count);
@@ -142,6 +142,7 @@ fn find_up_to(equations: &EquationsOfMotion, most: usize) -> Result<RestStates, 
 }
 
 /// Twists of the spanning tree, gathered cluster by cluster.
+#[derive(Clone)]
 struct Combination {
     tree_twists: Vec<f64>,
     stable: bool,
@@ -153,18 +154,20 @@ struct Combination {
 /// first, and then those nearest to zero twist. Sizes add up, so the stable state nearest to zero
 /// twist is never dropped.
 fn combine(
-    old: &[Combination],
+    mut old: Vec<Combination>,
     members: &[usize],
     solutions: &[clusters::Balanced],
     most: usize,
 ) -> Vec<Combination> {
+    if let [only] = solutions {
+        // Long lines have one after the other.
+        old.iter_mut().for_each(|base| base.extend(members, only));
+        return old;
+    }
     let with = |base: &Combination, solution: &clusters::Balanced| {
-        let mut tree_twists = base.tree_twists.clone();
-        for (member, twist) in members.iter().zip(&solution.twists) {
-            tree_twists[*member] = *twist;
-        }
-        let size = base.size + solution.twists.iter().map(|x| x.abs()).sum::<f64>();
-        Combination { tree_twists, stable: base.stable && solution.stable, size }
+        let mut base = base.clone();
+        base.extend(members, solution);
+        base
     };
     let pairs = old.iter().flat_map(|base| solutions.iter().map(move |s| with(base, s)));
     let mut all: Vec<Combination> = pairs.collect();
@@ -173,6 +176,16 @@ fn combine(
         all.truncate(most);
     }
     all
+}
+
+impl Combination {
+    fn extend(&mut self, members: &[usize], solution: &clusters::Balanced) {
+        for (member, twist) in members.iter().zip(&solution.twists) {
+            self.tree_twists[*member] = *twist;
+        }
+        self.size += solution.twists.iter().map(|x| x.abs()).sum::<f64>();
+        self.stable &= solution.stable;
+    }
 }
 
 fn rest_state(equations: &EquationsOfMotion, combination: &Combination) -> RestState {
@@ -213,6 +226,6 @@ pub(crate) fn lowest_eigenvalue(
     equations: &EquationsOfMotion,
     state: &RestState,
 ) -> Result<f64, AnalysisError> {
-    let eigenvalues = ElasticSpace::new(equations).eigenvalues(equations, &state.twists)?;
-    Ok(eigenvalues.first().copied().unwrap_or(0.0))
+    let modes = lowest_modes(equations, &state.twists, 1)?;
+    Ok(modes.first().map_or(0.0, |mode| mode.eigenvalue))
 }

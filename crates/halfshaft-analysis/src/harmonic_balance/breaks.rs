@@ -90,6 +90,8 @@ mod tests {
             damps_in_gap: false,
             friction: None,
             engagement: None,
+            loss_factor: 0.0,
+            inertance: 0.0,
         };
         let set = HarmonicSet::all(1);
         let (sin, cos) = f64::sin_cos(SHIFT);

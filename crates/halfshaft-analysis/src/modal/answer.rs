@@ -4,50 +4,88 @@ use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{ModesQuestion, Question};
 use halfshaft_numerics::Complex;
-use halfshaft_results::{Equilibrium, Mode, ModesResult, Named};
+use halfshaft_results::{Equilibrium, Mode, ModesInGear, ModesResult, Named};
 
-use super::damped::damped;
-use super::elastic::{ElasticMode, ElasticSpace};
+use super::elastic::{ALL_UP_TO, ElasticMode, lowest_modes};
 use super::label::label;
+use super::sparse::elastic_count;
+use super::vibration::{Vibration, gears};
 use crate::equilibrium::{self, RestState, RestStates};
 use crate::error::AnalysisError;
 use crate::header::header;
+
+/// Modes that are listed of a long line where nobody says how many.
+const OF_A_LONG_LINE: usize = 20;
 
 /// Answers `modes`.
 pub(crate) fn solve(
     line: &Driveline,
     question: &ModesQuestion,
 ) -> Result<ModesResult, AnalysisError> {
-    let equations = EquationsOfMotion::new(line)?;
-    let states = match question.equilibrium {
-        Some(_) => equilibrium::find(&equations)?,
-        None => equilibrium::find_stable(&equations)?,
-    };
-    let state = choose_equilibrium(line, &equations, &states, question.equilibrium)?;
-    let undamped = ElasticSpace::new(&equations).modes(&equations, &state.twists)?;
-    let pairs = damped(&equations, &undamped, &state.twists)?;
-    let mut modes = Vec::with_capacity(equations.groups());
+    let vibration = Vibration::of(line, question.equilibrium)?;
+    let Vibration { equations, state } = &vibration;
+    let all = elastic_count(equations);
+    let long = equations.groups() > ALL_UP_TO;
+    let count = question.count.unwrap_or(if long { OF_A_LONG_LINE } else { all }).min(all);
+    let undamped = vibration.modes(count)?;
+    let pairs = vibration.damped(&undamped)?;
+    let mut modes = Vec::with_capacity(undamped.len() + 1);
     if let (Some(rigid), Some(pair)) = (&equations.rigid, pairs.rigid) {
-        modes.push(rigid_mode(&equations, &rigid.speeds, pair));
+        modes.push(rigid_mode(equations, &rigid.speeds, pair));
     }
     for (mode, pair) in undamped.iter().zip(&pairs.elastic) {
-        modes.push(elastic_mode(&equations, state, mode, *pair));
+        modes.push(elastic_mode(equations, state, mode, *pair));
     }
     let mut header = header(line, &Question::Modes(question.clone()));
-    header.assumptions.push(
-        "small vibrations about the equilibrium: each shaft acts by its tangent stiffness there"
-            .to_owned(),
-    );
-    header.assumptions.extend(friction_left_out(&equations));
-    header.warnings.extend(equilibrium::free_play(&equations, state));
-    if !state.stable {
-        header.warnings.push("this equilibrium is not stable: small motions grow".to_owned());
+    vibration.told(&mut header);
+    Ok(ModesResult {
+        header,
+        equilibrium: rest_result(equations, state, true)?,
+        modes,
+        elastic_modes: (count < all).then_some(all),
+        gears: if question.equilibrium.is_none() { in_gears(line, OF_A_GEAR)? } else { Vec::new() },
+    })
+}
+
+/// Modes that are listed gear by gear.
+const OF_A_GEAR: usize = 6;
+
+/// The lowest modes in every gear; none without a list of ratios, and in gears without a stable state.
+pub(crate) fn in_gears(line: &Driveline, count: usize) -> Result<Vec<ModesInGear>, AnalysisError> {
+    let mut rows = Vec::new();
+    for (gear, line) in gears(line)?.into_iter().filter(|(gear, _)| gear.gearbox.is_some()) {
+        let vibration = match Vibration::of(&line, None) {
+            Err(AnalysisError::NoEquilibrium { .. }) => {
+                rows.push(ModesInGear {
+                    gear,
+                    frequency: Vec::new(),
+                    damped_frequency: Vec::new(),
+                    damping_ratio: Vec::new(),
+                });
+                continue;
+            }
+            other => other?,
+        };
+        let modes = vibration.modes(count)?;
+        let pairs = vibration.damped(&modes)?;
+        rows.push(ModesInGear {
+            gear,
+            frequency: modes.iter().map(|mode| mode.eigenvalue.max(0.0).sqrt()).collect(),
+            damped_frequency: pairs.elastic.iter().map(|pair| pair[0].im.abs()).collect(),
+            damping_ratio: pairs.elastic.iter().map(|pair| damping_ratio(*pair)).collect(),
+        });
     }
-    Ok(ModesResult { header, equilibrium: rest_result(&equations, state, true)?, modes })
+    Ok(rows)
+}
+
+/// Damping over critical damping of a pair of eigenvalues: more than one where it does not oscillate.
+pub(crate) fn damping_ratio([first, second]: [Complex; 2]) -> f64 {
+    let magnitude = (first * second).modulus().sqrt();
+    if magnitude > 0.0 { -(first.re + second.re) / (2.0 * magnitude) } else { 0.0 }
 }
 
 /// What modes make of dry friction, which has no tangent that would say anything.
-fn friction_left_out(equations: &EquationsOfMotion) -> Option<String> {
+pub(super) fn friction_left_out(equations: &EquationsOfMotion) -> Option<String> {
     let names: Vec<&str> = equations
         .connections
         .iter()
@@ -87,7 +125,7 @@ pub(crate) fn mode_label(
     state: &RestState,
     mode: usize,
 ) -> Result<String, AnalysisError> {
-    let modes = ElasticSpace::new(equations).modes(equations, &state.twists)?;
+    let modes = lowest_modes(equations, &state.twists, mode)?;
     let found = modes.len();
     let shape = modes.get(mode - 1).ok_or(AnalysisError::NoSuchMode { asked: mode, found })?;
     Ok(words(equations, state, shape))
@@ -166,10 +204,6 @@ fn elastic_mode(
     let strain = strain_shares(equations, state, mode);
     let kinetic = kinetic_shares(equations, &mode.shape);
     let frequency = mode.eigenvalue.max(0.0).sqrt();
-    let [first, second] = pair;
-    let magnitude = (first * second).modulus().sqrt();
-    let damping_ratio =
-        if magnitude > 0.0 { -(first.re + second.re) / (2.0 * magnitude) } else { 0.0 };
     let mut label = words(equations, state, mode);
     if mode.eigenvalue < 0.0 {
         label = format!("unstable, moves away without vibrating: {label}");
@@ -178,8 +212,8 @@ fn elastic_mode(
     }
     Mode {
         frequency,
-        damped_frequency: first.im.abs(),
-        damping_ratio,
+        damped_frequency: pair[0].im.abs(),
+        damping_ratio: damping_ratio(pair),
         shape,
         twist: by_connection(equations, &twists),
         strain_energy: by_connection(equations, &strain),
@@ -190,7 +224,11 @@ fn elastic_mode(
 }
 
 /// A mode in words, from the shares of its energies.
-fn words(equations: &EquationsOfMotion, state: &RestState, mode: &ElasticMode) -> String {
+pub(crate) fn words(
+    equations: &EquationsOfMotion,
+    state: &RestState,
+    mode: &ElasticMode,
+) -> String {
     let strain = strain_shares(equations, state, mode);
     let kinetic = kinetic_shares(equations, &mode.shape);
     let strain: Vec<(&str, f64)> =

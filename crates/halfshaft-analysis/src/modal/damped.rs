@@ -2,55 +2,103 @@
 //!
 //! In modal coordinates `η'' + Γ η' + Λ η = 0` with `Γ = Φᵀ C Φ`. Where `Γ` is diagonal every
 //! mode is a quadratic of its own. Else the first-order matrix gives the eigenvalues, and each
-//! is given to the mode that moves most in its eigenvector.
+//! is given to the mode that moves most in its eigenvector. Where only the lowest modes are known, what
+//! couples them to the others is made up for by inverse iteration ([`super::refined`]). Modal damping
+//! and loss factors add `2 ζ ω` and `η ω` to each mode.
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::Complex;
-use halfshaft_numerics::dense::{Matrix, dot, eigen};
+use halfshaft_numerics::dense::{Matrix, eigen};
 
 use super::elastic::ElasticMode;
+use super::refined::refined;
+use super::sparse::{elastic_count, rigid_shape};
 use crate::error::{AnalysisError, Doing};
 
 /// Damped eigenvalues of the modes, and of the rigid-body motion where there is one.
-pub(super) struct DampedPairs {
-    pub(super) elastic: Vec<[Complex; 2]>,
-    pub(super) rigid: Option<[Complex; 2]>,
+pub(crate) struct DampedPairs {
+    pub(crate) elastic: Vec<[Complex; 2]>,
+    pub(crate) rigid: Option<[Complex; 2]>,
 }
 
 /// Coupling below this part of the diagonal counts as none.
 const UNCOUPLED: f64 = 1e-13;
 
-/// Damped eigenvalues of a line about an equilibrium whose undamped modes are given.
-pub(super) fn damped(
+/// Damped eigenvalues of a line about an equilibrium whose undamped modes are given: all of them, or
+/// the lowest.
+pub(crate) fn damped(
     equations: &EquationsOfMotion,
     modes: &[ElasticMode],
     twists: &[f64],
 ) -> Result<DampedPairs, AnalysisError> {
-    let damping = equations.tangent_damping(twists);
-    let mut shapes: Vec<&[f64]> = modes.iter().map(|mode| mode.shape.as_slice()).collect();
-    let rigid_shape: Option<Vec<f64>> = equations.rigid.as_ref().map(|rigid| {
-        let length = rigid.inertia.sqrt();
-        rigid.speeds.iter().map(|r| r / length).collect()
-    });
-    shapes.extend(rigid_shape.as_deref());
-    let modal = projected(&damping, &shapes);
-    if is_diagonal(&modal) {
+    let rigid = rigid_shape(equations);
+    let modal = projected(equations, modes, twists, rigid.as_deref());
+    let mut pairs = if is_diagonal(&modal) {
         let pair = |index: usize, stiffness: f64| quadratic(modal[(index, index)], stiffness);
-        return Ok(DampedPairs {
+        DampedPairs {
             elastic: modes.iter().enumerate().map(|(i, m)| pair(i, m.eigenvalue)).collect(),
-            rigid: rigid_shape.map(|_| pair(modes.len(), 0.0)),
-        });
+            rigid: rigid.map(|_| pair(modes.len(), 0.0)),
+        }
+    } else {
+        coupled(&modal, modes, rigid.is_some())?
+    };
+    if modes.len() < elastic_count(equations) {
+        // Damping couples to the modes that are left out as well.
+        refined(equations, twists, modes, &mut pairs.elastic);
     }
-    coupled(&modal, modes, rigid_shape.is_some())
+    for (mode, pair) in modes.iter().zip(&mut pairs.elastic) {
+        let ratio = equations.modal_damping + loss(equations, mode, twists) / 2.0;
+        if ratio > 0.0 {
+            let further = 2.0 * ratio * mode.eigenvalue.max(0.0).sqrt();
+            *pair = quadratic(further - (pair[0] + pair[1]).re, (pair[0] * pair[1]).re);
+        }
+    }
+    Ok(pairs)
 }
 
-/// `shapesᵀ matrix shapes`.
-fn projected(matrix: &Matrix, shapes: &[&[f64]]) -> Matrix {
-    let images: Vec<Vec<f64>> = shapes
-        .iter()
-        .map(|shape| (0..shape.len()).map(|row| dot(matrix.row(row), shape)).collect())
-        .collect();
-    Matrix::from_fn(shapes.len(), shapes.len(), |i, j| dot(shapes[i], &images[j]))
+/// Loss factor of a mode: those of the connections by their shares of the strain energy.
+pub(crate) fn loss(equations: &EquationsOfMotion, mode: &ElasticMode, twists: &[f64]) -> f64 {
+    if mode.eigenvalue <= 0.0 {
+        return 0.0;
+    }
+    let connections = equations.connections.iter().zip(twists).zip(&mode.twists);
+    let lost: f64 = connections
+        .filter(|((connection, _), _)| connection.loss_factor > 0.0)
+        .map(|((connection, x), twist)| {
+            connection.loss_factor * connection.law.stiffness(*x) * twist * twist
+        })
+        .sum();
+    lost / mode.eigenvalue
+}
+
+/// `Φᵀ C Φ` over the elastic modes and, last, the rigid-body motion.
+fn projected(
+    equations: &EquationsOfMotion,
+    modes: &[ElasticMode],
+    twists: &[f64],
+    rigid: Option<&[f64]>,
+) -> Matrix {
+    let count = modes.len() + usize::from(rigid.is_some());
+    let mut matrix = Matrix::zeros(count, count);
+    for (index, connection) in equations.connections.iter().enumerate() {
+        let damping = connection.damping_at(twists[index]);
+        // The rigid-body motion twists nothing.
+        for (row, first) in modes.iter().enumerate().filter(|_| damping != 0.0) {
+            for (column, second) in modes.iter().enumerate() {
+                matrix[(row, column)] += damping * first.twists[index] * second.twists[index];
+            }
+        }
+    }
+    let shapes = || modes.iter().map(|mode| mode.shape.as_slice()).chain(rigid);
+    for (group, damping) in equations.ground_damping.iter().enumerate().filter(|(_, d)| **d != 0.0)
+    {
+        for (row, first) in shapes().enumerate() {
+            for (column, second) in shapes().enumerate() {
+                matrix[(row, column)] += damping * first[group] * second[group];
+            }
+        }
+    }
+    matrix
 }
 
 fn is_diagonal(matrix: &Matrix) -> bool {

@@ -9,6 +9,7 @@
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::dense::{Matrix, dot, symmetric_eigen};
 
+use super::sparse;
 use crate::error::{AnalysisError, Doing};
 
 /// One undamped mode.
@@ -20,6 +21,26 @@ pub(crate) struct ElasticMode {
     pub(crate) shape: Vec<f64>,
     /// Twist of each connection in the same scale.
     pub(crate) twists: Vec<f64>,
+}
+
+/// Degrees of freedom up to which all modes are computed where nobody says how many.
+pub(crate) const ALL_UP_TO: usize = 400;
+
+/// The lowest `count` elastic modes about given twists, ascending.
+pub(crate) fn lowest_modes(
+    equations: &EquationsOfMotion,
+    twists: &[f64],
+    count: usize,
+) -> Result<Vec<ElasticMode>, AnalysisError> {
+    let special = equations.massless().is_some()
+        || equations.connections.iter().any(|connection| connection.inertance != 0.0);
+    // A dense problem is solved whole, a long line by as many vectors as are wanted.
+    if special || equations.groups() > ALL_UP_TO {
+        return sparse::lowest(equations, twists, count);
+    }
+    let mut modes = ElasticSpace::new(equations).modes(equations, twists)?;
+    modes.truncate(count);
+    Ok(modes)
 }
 
 /// The motions of a line that are orthogonal to its rigid-body motion.

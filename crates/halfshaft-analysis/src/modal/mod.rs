@@ -2,12 +2,18 @@
 //!
 //! The rigid-body motion is taken out exactly, orthogonal in the inertia ([`elastic`]); what
 //! is left is a symmetric eigenproblem. Damping then couples the undamped modes
-//! ([`damped`]).
+//! ([`damped`]). Long lines, massless nodes and bars with consistent inertia go to a sparse problem of
+//! which only the lowest modes are computed ([`sparse`]).
 
 mod answer;
 mod damped;
 pub(crate) mod elastic;
 mod label;
+mod refined;
+pub(crate) mod sparse;
+pub(crate) mod vibration;
 
-pub(crate) use answer::{by_connection, choose_equilibrium, mode_label, rest_result, solve};
+pub(crate) use answer::{
+    by_connection, choose_equilibrium, damping_ratio, mode_label, rest_result, solve, words,
+};
 pub(crate) use elastic::ElasticMode;

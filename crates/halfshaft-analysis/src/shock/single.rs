@@ -210,6 +210,8 @@ fn surrogate(
             damps_in_gap: true,
             friction: None,
             engagement: None,
+            loss_factor: 0.0,
+            inertance: 0.0,
         }],
         nodes: vec![NodePlace {
             name: equations.nodes[node].name.clone(),
@@ -227,6 +229,7 @@ fn surrogate(
         rigid: None,
         excitation,
         meshes: 0,
+        modal_damping: 0.0,
     }
 }
 

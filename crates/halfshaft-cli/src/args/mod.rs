@@ -2,6 +2,7 @@
 
 mod common;
 mod helpers;
+mod linear;
 mod periodic;
 mod questions;
 mod words;

@@ -9,6 +9,7 @@ use halfshaft::model::question::{
 use halfshaft::{QuestionText, Verb};
 
 use super::common::Common;
+use super::linear::{Campbell, Forced};
 use super::periodic::{Folds, Resonance};
 use super::words::OneOf;
 
@@ -27,10 +28,34 @@ pub enum Ask {
   halfshaft static --out wind-up.svg                torque over twist")]
     Static(Model),
     /// Natural frequencies, damping and mode shapes about the equilibrium
+    ///
+    /// Of a line of more than 400 degrees of freedom the lowest 20, unless --count says otherwise. Where
+    /// a gearbox lists its ratios the lowest modes come gear by gear as well.
     #[command(after_help = "Examples:
   halfshaft modes my-line.toml
+  halfshaft modes long-line.toml --count 40
   halfshaft modes --json | jq '.modes[].frequency'")]
     Modes(Modes),
+    /// Critical speeds: where orders of the excitation meet natural frequencies
+    ///
+    /// The Campbell diagram with a table of its crossings: which mode, which order, how far from the
+    /// operating range, and the torque that this order and mode alone would make in the shaft that they
+    /// load most. Gear by gear where a gearbox lists its ratios.
+    #[command(after_help = "Examples:
+  halfshaft campbell my-line.toml --operating 800rpm..6000rpm --out campbell.svg
+  halfshaft campbell my-line.toml --orders 0.5,1,2,4 --frequency 0rpm..7000rpm")]
+    Campbell(Campbell),
+    /// Linear vibration over the excitation speed, order by order and all together
+    ///
+    /// Torques of shafts (half of their range over a period), accelerations of nodes and heat in dampers,
+    /// with the phases of all sources: orders add up in time, not by their magnitudes. Small vibrations
+    /// about the equilibrium; `resonance` answers for what is not linear. Gear by gear where a gearbox
+    /// lists its ratios.
+    #[command(after_help = "Examples:
+  halfshaft forced my-line.toml --frequency 800rpm..6000rpm --out forced.svg
+  halfshaft forced my-line.toml --shaft crankshaft --orders 2,4,6
+  halfshaft forced my-line.toml --points 1000 --out forced.csv")]
+    Forced(Forced),
     /// A time history of the full equations
     ///
     /// Torques act from time 0 on. The channels are SHAFT.twist, .twist_rate, .torque (spring
@@ -137,6 +162,10 @@ pub struct Modes {
     /// Which equilibrium, as `static` numbers them [default: the stable one nearest zero twist]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub equilibrium: Option<String>,
+    /// How many of the lowest elastic modes [default: all, or 20 of a line of more than 400 degrees of
+    /// freedom]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub count: Option<String>,
 }
 
 #[derive(Args, Debug)]
@@ -320,6 +349,8 @@ impl Ask {
         match self {
             Self::Check(model) | Self::Static(model) => model,
             Self::Modes(modes) => &mut modes.model,
+            Self::Campbell(campbell) => &mut campbell.model,
+            Self::Forced(forced) => &mut forced.model,
             Self::Simulate(simulate) => &mut simulate.model,
             Self::Shock(shock) => &mut shock.model,
             Self::Resonance(resonance) => &mut resonance.model,
@@ -336,9 +367,11 @@ impl Ask {
             Self::Check(model) => (Verb::Check, model, none),
             Self::Static(model) => (Verb::Static, model, none),
             Self::Modes(modes) => {
-                let text = QuestionText { equilibrium: modes.equilibrium.clone(), ..none };
-                (Verb::Modes, &modes.model, text)
+                let (equilibrium, count) = (modes.equilibrium.clone(), modes.count.clone());
+                (Verb::Modes, &modes.model, QuestionText { equilibrium, count, ..none })
             }
+            Self::Campbell(campbell) => (Verb::Campbell, &campbell.model, campbell.text()),
+            Self::Forced(forced) => (Verb::Forced, &forced.model, forced.text()),
             Self::Simulate(simulate) => (Verb::Simulate, &simulate.model, simulate.text()),
             Self::Shock(shock) => (Verb::Shock, &shock.model, shock.text()),
             Self::Resonance(resonance) => (Verb::Resonance, &resonance.model, resonance.text()),

@@ -33,9 +33,9 @@ pub(crate) fn law_of_shaft(shaft: &Shaft) -> TorqueLaw {
 
 /// The law of the elastic mesh of a gear, at the output.
 pub(crate) fn law_of_mesh(gear: &Gear) -> TorqueLaw {
-    let stiffness = gear.stiffness_nm_per_rad.unwrap_or(0.0);
+    let [stiffness, _, clearance] = gear.mesh_at_output().unwrap_or_default();
     let linear = PolynomialLaw::new([0.0, stiffness, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    straightened(gap(gear.clearance_rad.unwrap_or(0.0), &linear, 0.0))
+    straightened(gap(clearance, &linear, 0.0))
 }
 
 /// A clearance; one of zero is the polynomial itself where that is odd.

@@ -34,6 +34,7 @@ pub(super) fn check_connection(line: &Driveline, places: &Places<'_>, found: &mu
     }
     check_torque_nodes(line, &topology, places, found);
     let massless = check_masses(line, &topology, places, found);
+    check_engine_nodes(line, &topology, places, found);
     // What hangs on a node that nobody knows cannot be judged.
     let Some(meant) = as_meant(line, &massless).filter(has_connection) else {
         return;
@@ -114,7 +115,34 @@ struct Massless<'l> {
 
 const ADD_INERTIA: &str = "add an [[inertia]] of that name, or connect the node by a [[gear]]";
 
-/// Every group of nodes needs an inertia; returns those without.
+/// Every engine needs existing nodes.
+fn check_engine_nodes(
+    line: &Driveline,
+    topology: &Topology,
+    places: &Places<'_>,
+    found: &mut Diagnostics,
+) {
+    for (index, engine) in line.engines.iter().enumerate() {
+        for node in engine.on.iter().filter(|node| topology.node(node).is_none()) {
+            let hint = did_you_mean(node, anchored(line)).unwrap_or_else(|| {
+                format!("the nodes of this line are {}", listed(anchored(line)))
+            });
+            let message = format!("no node is named \"{node}\"");
+            found.push(Diagnostic::error(places.key("engine", index, "on"), message).hint(hint));
+        }
+    }
+}
+
+/// How many connections end at each group.
+fn ends_at(line: &Driveline, topology: &Topology) -> Vec<usize> {
+    let mut ends = vec![0; topology.groups.len()];
+    for (group, _) in Network::of(line, topology).ends.into_iter().flatten().flatten() {
+        ends[group] += 1;
+    }
+    ends
+}
+
+/// Every group of nodes needs an inertia, unless it only joins connections; returns those without.
 fn check_masses<'l>(
     line: &'l Driveline,
     topology: &'l Topology,
@@ -124,8 +152,10 @@ fn check_masses<'l>(
     let mut massless = Vec::new();
     let mut looks = 0..MOST_LOOKS;
     let mentions = first_mentions(line, places);
+    let ends = ends_at(line, topology);
     for (number, group) in topology.groups.iter().enumerate() {
-        if group.nodes.iter().any(|node| topology.nodes[*node].inertia.is_some()) {
+        let heavy = group.nodes.iter().any(|node| topology.nodes[*node].inertia.is_some());
+        if heavy || ends[number] > 1 {
             continue;
         }
         let names: Vec<&str> =

@@ -2,14 +2,17 @@
 
 mod connection;
 mod digest;
+mod expanded;
 mod network;
 mod places;
 mod topology;
 mod validate;
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
-use crate::elements::{Gear, Inertia, Shaft, Torque};
+use crate::elements::{Damper, Engine, Gear, Inertia, Shaft, Torque, WholeLine};
 use crate::parameter::{AddressError, Parameter, resolve};
 
 pub use network::{End, LockedLoop, Network, TreeShaft};
@@ -27,6 +30,13 @@ pub struct Driveline {
     pub(crate) gears: Vec<Gear>,
     pub(crate) shafts: Vec<Shaft>,
     pub(crate) torques: Vec<Torque>,
+    // The digest of a line is made from what is serialised; lists that are empty do not change it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) dampers: Vec<Damper>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) engines: Vec<Engine>,
+    #[serde(skip_serializing_if = "WholeLine::is_plain")]
+    pub(crate) whole: WholeLine,
 }
 
 /// Why a line cannot be had with another value of a parameter.
@@ -114,12 +124,36 @@ impl Driveline {
         &self.torques
     }
 
+    /// Torsional vibration dampers in file order.
+    pub fn dampers(&self) -> &[Damper] {
+        &self.dampers
+    }
+
+    /// Piston engines in file order.
+    pub fn engines(&self) -> &[Engine] {
+        &self.engines
+    }
+
+    /// What holds for the line as a whole.
+    pub fn whole(&self) -> &WholeLine {
+        &self.whole
+    }
+
+    /// The line with its bars cut into pieces and its dampers as an inertia and a shaft each, which is
+    /// what analyses work on. Inertias, shafts and gears keep their places in the lists; a piece of a
+    /// bar that has inertia takes half of it to each end, and has what consistent inertia differs by
+    /// as [`Shaft::inertance_kg_m2`].
+    pub fn expanded(&self) -> Cow<'_, Self> {
+        expanded::of(self)
+    }
+
     /// Gears with an elastic mesh, in file order.
     pub fn meshes(&self) -> impl Iterator<Item = &Gear> + Clone {
         self.gears.iter().filter(|gear| gear.is_elastic())
     }
 
-    /// Names of the connections with a twist: shafts, then elastic meshes, in file order.
+    /// Names of the connections with a twist: shafts, then elastic meshes, in file order; of the
+    /// [expanded](Self::expanded) line those that analyses know.
     pub fn connection_names(&self) -> impl Iterator<Item = &str> + Clone {
         let shafts = self.shafts.iter().map(|shaft| shaft.name.as_str());
         shafts.chain(self.meshes().map(|gear| gear.name.as_str()))
@@ -131,7 +165,9 @@ impl Driveline {
         let gears = self.gears.iter().map(|e| e.name.as_str());
         let shafts = self.shafts.iter().map(|e| e.name.as_str());
         let torques = self.torques.iter().map(|e| e.name.as_str());
-        inertias.chain(gears).chain(shafts).chain(torques)
+        let dampers = self.dampers.iter().map(|e| e.name.as_str());
+        let engines = self.engines.iter().map(|e| e.name.as_str());
+        inertias.chain(gears).chain(shafts).chain(torques).chain(dampers).chain(engines)
     }
 
     /// The parameter at an address such as `half-shaft.cubic`.
@@ -173,13 +209,14 @@ impl Driveline {
     /// the parameter has been set to.
     fn check_turning(&self, parameter: &Parameter, value: f64) -> Result<(), ChangeError> {
         let address = || parameter.address.clone();
-        let topology = Topology::of(self).map_err(|reason| ChangeError::Gears {
+        let whole = self.expanded();
+        let topology = Topology::of(&whole).map_err(|reason| ChangeError::Gears {
             address: address(),
             value,
             reason: Box::new(reason),
         })?;
-        let network = Network::of(self, &topology);
-        match network.locked_loops(self, topology.groups.len()).into_iter().next() {
+        let network = Network::of(&whole, &topology);
+        match network.locked_loops(&whole, topology.groups.len()).into_iter().next() {
             Some(locked) => {
                 Err(ChangeError::Loop { address: address(), value, reason: Box::new(locked) })
             }

@@ -11,10 +11,14 @@ pub(crate) struct Places<'d> {
 }
 
 /// Lists of the file in the order of [`super::Driveline::element_names`].
-const LISTS: [&str; 4] = ["inertia", "gear", "shaft", "torque"];
+const LISTS: [&str; 6] = ["inertia", "gear", "shaft", "torque", "damper", "engine"];
 /// Lists that bring nodes, with the keys that name them.
-const NODES: [(&str, &[&str]); 3] =
-    [("inertia", &["name"]), ("gear", &["input", "output"]), ("shaft", &["from", "to"])];
+const NODES: [(&str, &[&str]); 4] = [
+    ("inertia", &["name"]),
+    ("gear", &["input", "output"]),
+    ("shaft", &["from", "to"]),
+    ("damper", &["name", "on"]),
+];
 
 impl<'d> Places<'d> {
     pub(crate) fn new(document: &'d CheckedTable) -> Self {

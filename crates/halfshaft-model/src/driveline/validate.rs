@@ -17,7 +17,8 @@ pub(crate) fn validate(line: &Driveline, places: &Places<'_>, found: &mut Diagno
     check_ends(line, places, found);
     check_laws(line, places, found);
     check_torques(line, places, found);
-    check_connection(line, places, found);
+    check_engines(line, places, found);
+    check_connection(&line.expanded(), places, found);
 }
 
 /// Element names with the list and index that they come from.
@@ -27,7 +28,31 @@ fn named(line: &Driveline) -> Vec<(&'static str, usize, &str)> {
     all.extend(line.gears.iter().enumerate().map(|(i, e)| ("gear", i, e.name.as_str())));
     all.extend(line.shafts.iter().enumerate().map(|(i, e)| ("shaft", i, e.name.as_str())));
     all.extend(line.torques.iter().enumerate().map(|(i, e)| ("torque", i, e.name.as_str())));
+    all.extend(line.dampers.iter().enumerate().map(|(i, e)| ("damper", i, e.name.as_str())));
+    all.extend(line.engines.iter().enumerate().map(|(i, e)| ("engine", i, e.name.as_str())));
     all
+}
+
+/// Dampers that nothing holds, and tables that are no working cycle.
+fn check_engines(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
+    for (index, damper) in line.dampers.iter().enumerate() {
+        if damper.is_silent() && places.is_sound("damper", index) {
+            let message = format!("nothing holds the ring of damper \"{}\"", damper.name);
+            found.push(
+                Diagnostic::error(places.key("damper", index, "name"), message)
+                    .hint("give it a damping, a stiffness or both"),
+            );
+        }
+    }
+    for (index, engine) in line.engines.iter().enumerate() {
+        if let Some(Err((message, hint))) =
+            engine.table().map(|table| table.cycle(engine.revolutions()))
+            && places.is_sound("engine", index)
+        {
+            let key = if engine.torque.is_some() { "torque" } else { "pressure" };
+            found.push(Diagnostic::error(places.key("engine", index, key), message).hint(hint));
+        }
+    }
 }
 
 fn check_names(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
@@ -79,7 +104,7 @@ fn check_ends(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) {
             );
         }
     }
-    let nothing = line.connection_names().next().is_none();
+    let nothing = line.connection_names().next().is_none() && line.dampers.is_empty();
     if nothing && places.all_sound("shaft") && places.all_sound("gear") {
         let place = places.key("inertia", 0, "name");
         found.push(

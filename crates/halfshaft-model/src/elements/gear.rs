@@ -23,19 +23,30 @@ pub struct Gear {
     pub ratio: f64,
     /// The ratios that this gearbox can be switched to, for answers gear by gear.
     pub ratios: Vec<f64>,
-    /// Stiffness of the mesh at the output, N·m/rad; `None` for a rigid gear.
+    /// Whether stiffness, damping and clearance of the mesh are those at the input.
+    #[serde(skip_serializing_if = "is_false")]
+    pub refers_to_input: bool,
+    /// Stiffness of the mesh at the side told, N·m/rad; `None` for a rigid gear.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_nm_per_rad: Option<f64>,
-    /// Viscous damping of the mesh at the output, N·m·s/rad; `None` for none.
+    /// Viscous damping of the mesh at the side told, N·m·s/rad; `None` for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_nm_s_per_rad: Option<f64>,
     /// Whether the damping of the mesh acts in its backlash too.
     #[serde(skip_serializing_if = "is_true")]
     pub damps_in_gap: bool,
-    /// Total backlash of the mesh at the output, rad; `None` for none.
+    /// Total backlash of the mesh at the side told, rad; `None` for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_rad: Option<f64>,
 }
+
+fn is_false(value: &bool) -> bool {
+    !*value
+}
+
+/// Sides of a gear.
+const SIDES: [&str; 2] = ["output", INPUT];
+const INPUT: &str = "input";
 
 /// Keys of `[[gear]]`.
 pub static GEAR: TableSpec = TableSpec {
@@ -68,18 +79,25 @@ pub static GEAR: TableSpec = TableSpec {
         KeySpec::new(
             "stiffness",
             ValueSpec::Quantity(QuantityKind::Stiffness(1), Sign::Positive),
-            "Stiffness of the mesh, at the output; without it the gear is rigid.",
+            "Stiffness of the mesh, at the output unless told otherwise; without it the gear is rigid.",
         ),
         KeySpec::new(
             "damping",
             ValueSpec::Quantity(QuantityKind::Damping, Sign::NonNegative),
-            "Viscous damping of an elastic mesh, at the output. Default 0.",
+            "Viscous damping of an elastic mesh, at the same side. Default 0.",
+        ),
+        KeySpec::new(
+            "referred_to",
+            ValueSpec::Choice(&SIDES),
+            "Side at which stiffness, damping and clearance of the mesh are told: \"output\" or \
+             \"input\"; at the output the stiffness is ratio² times that at the input. Twist and \
+             torque are those at the output all the same. Default \"output\".",
         ),
         DAMPING_ACTS,
         KeySpec::new(
             "clearance",
             ValueSpec::Quantity(QuantityKind::Angle, Sign::NonNegative),
-            "Total backlash of an elastic mesh, at the output. Default 0.",
+            "Total backlash of an elastic mesh, at the same side. Default 0.",
         ),
     ],
 };
@@ -94,11 +112,22 @@ impl Gear {
             output: table.text_or_empty("output"),
             ratio: table.number_or_stand_in("ratio"),
             ratios: table.numbers("ratios").to_vec(),
+            refers_to_input: table.word("referred_to") == Some(INPUT),
             stiffness_nm_per_rad: elastic.then(|| table.number_or_stand_in("stiffness")),
             damping_nm_s_per_rad: table.number("damping"),
             damps_in_gap: table.word("damping_acts") != Some(IN_CONTACT),
             clearance_rad: table.number("clearance"),
         }
+    }
+
+    /// Stiffness (N·m/rad), damping (N·m·s/rad) and total backlash (rad) of the mesh at the output;
+    /// `None` for a rigid gear.
+    pub fn mesh_at_output(&self) -> Option<[f64; 3]> {
+        let (turns, stiffness) = (self.ratio.abs(), self.stiffness_nm_per_rad?);
+        let lever = if self.refers_to_input { turns } else { 1.0 };
+        let damping = self.damping_nm_s_per_rad.unwrap_or(0.0);
+        let clearance = self.clearance_rad.unwrap_or(0.0);
+        Some([stiffness * lever * lever, damping * lever * lever, clearance / lever])
     }
 
     /// Whether the mesh is elastic, so that the gear is a connection like a shaft.

@@ -1,5 +1,6 @@
 //! Which keys of a shaft, a gear or a torque go together, which the list of keys cannot say.
 
+use super::dimensions::NEEDED;
 use crate::diagnostic::{Diagnostic, Diagnostics, with_article};
 use crate::format::CheckedTable;
 
@@ -9,9 +10,19 @@ const POLYNOMIAL: [&str; 7] =
 /// Keys that each give the whole torque.
 const WHOLE: [&str; 3] = ["stages", "coast_stages", "table"];
 
+/// Keys of a bar.
+const BAR: [&str; 6] =
+    ["length", "outer_diameter", "inner_diameter", "shear_modulus", "density", "elements"];
+/// What a bar does not have: its pieces would each slip by themselves.
+const NOT_OF_A_BAR: [&str; 3] = ["friction", "friction_speed", "engagement"];
+
 /// Adds what does not go together in a shaft.
 pub(crate) fn check_shaft(shaft: &CheckedTable, found: &mut Diagnostics) {
     let mentions = |key: &&str| shaft.mentions(key);
+    if let Some(bar) = BAR.iter().copied().find(|key| mentions(key)) {
+        check_bar(shaft, bar, found);
+        return;
+    }
     let whole = WHOLE.iter().copied().find(|key| mentions(key));
     match whole {
         Some("table") => no_others(shaft, "table", &[&POLYNOMIAL], found),
@@ -42,6 +53,21 @@ pub(crate) fn check_shaft(shaft: &CheckedTable, found: &mut Diagnostics) {
             .hint("add friction = \"... N·m\""),
         );
     }
+}
+
+/// A bar has all its measures, and no other law.
+fn check_bar(shaft: &CheckedTable, bar: &'static str, found: &mut Diagnostics) {
+    no_others(shaft, bar, &[&POLYNOMIAL, &WHOLE, &NOT_OF_A_BAR], found);
+    for (missing, unit) in NEEDED.into_iter().filter(|(key, _)| !shaft.mentions(key)) {
+        found.push(
+            Diagnostic::error(
+                shaft.span_of(bar),
+                format!("a shaft with \"{bar}\" needs \"{missing}\""),
+            )
+            .hint(format!("add {missing} = \"... {unit}\"")),
+        );
+    }
+    no_free_play(shaft, "clearance or contact", found);
 }
 
 /// Where there is no free play, damping has no place to pause.
@@ -97,7 +123,8 @@ pub(crate) fn check_gear(gear: &CheckedTable, found: &mut Diagnostics) {
     if gear.mentions("stiffness") {
         return;
     }
-    for key in ["damping", "clearance"].into_iter().filter(|key| gear.mentions(key)) {
+    let of_mesh = ["damping", "clearance", "referred_to"];
+    for key in of_mesh.into_iter().filter(|key| gear.mentions(key)) {
         let message = format!("a gear with \"{key}\" needs the stiffness of its mesh");
         found.push(
             Diagnostic::error(gear.span_of(key), message).hint("add stiffness = \"... N·m/rad\""),
@@ -107,6 +134,20 @@ pub(crate) fn check_gear(gear: &CheckedTable, found: &mut Diagnostics) {
 
 /// Adds what does not go together in a torque.
 pub(crate) fn check_torque(torque: &CheckedTable, found: &mut Diagnostics) {
+    if let Some(orders) = torque.table("orders") {
+        let count = orders.numbers("order").len();
+        for (key, what) in [("amplitude", "amplitudes"), ("phase", "phases")] {
+            let others = orders.numbers(key).len();
+            if orders.is_sound() && orders.mentions(key) && others != count {
+                let message = format!("{count} orders and {others} {what}");
+                found.push(
+                    Diagnostic::error(torque.span_of("orders"), message).hint(
+                        "each order needs its amplitude, and its phase where phases are given",
+                    ),
+                );
+            }
+        }
+    }
     for (key, other, unit) in
         [("speed_power", "reference_speed", "\"... rpm\""), ("reference_speed", "speed_power", "2")]
     {

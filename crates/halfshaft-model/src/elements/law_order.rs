@@ -27,7 +27,18 @@ impl Shaft {
         stage_faults("stages", &self.stages, &mut faults);
         stage_faults("coast_stages", &self.coast_stages, &mut faults);
         faults.extend(self.table_fault());
+        faults.extend(self.bar_fault());
         faults
+    }
+
+    fn bar_fault(&self) -> Option<LawFault> {
+        let bar = self.dimensions.as_ref()?;
+        (bar.inner_diameter_m >= bar.outer_diameter_m).then(|| LawFault {
+            list: "inner_diameter",
+            entry: None,
+            message: "the inner diameter is not less than the outer".to_owned(),
+            hint: "a bar needs a wall",
+        })
     }
 
     fn table_fault(&self) -> Option<LawFault> {

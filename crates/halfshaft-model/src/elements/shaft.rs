@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::dimensions::{DIMENSIONS, Dimensions};
 use super::engagement::{ENGAGEMENT, Engagement};
 use super::measured::{MEASURED, MeasuredLaw};
 use super::stage::{STAGE, Stage};
@@ -71,10 +72,21 @@ pub struct Shaft {
     /// When the friction comes to bear, for motions in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub engagement: Option<Engagement>,
+    /// Loss factor η of hysteretic damping, for linear vibrations: stiffness `k (1 + i η)`.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub loss_factor: f64,
+    /// Round bar of which the stiffness and the inertia are those, in place of a law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dimensions: Option<Dimensions>,
+    /// Torque over the relative acceleration of the ends, kg·m²: what the consistent inertia of a
+    /// piece of a bar differs by from its halves at the ends. Only where
+    /// [`Driveline::expanded`](crate::Driveline::expanded) has made the shaft from a bar.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub inertance_kg_m2: f64,
 }
 
 // The digest of a line is made from what is serialised; a key at its default must not change it.
-fn is_zero(value: &f64) -> bool {
+pub(super) fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
@@ -85,9 +97,6 @@ pub(super) fn is_true(value: &bool) -> bool {
 fn is_default_speed(value: &f64) -> bool {
     (*value - FRICTION_SPEED_RAD_S).abs() == 0.0
 }
-
-const PLANNED_DIMENSIONS: &str = "this version takes the stiffness of a shaft: stiffness = \
-     \"... N·m/rad\" (for a round bar shear modulus · π (D⁴ - d⁴) / (32 · length))";
 
 const fn stiffness(name: &'static str, degree: u8, doc: &'static str) -> KeySpec {
     KeySpec::new(name, ValueSpec::Quantity(QuantityKind::Stiffness(degree), Sign::Any), doc)
@@ -100,10 +109,6 @@ const fn quantity(
     doc: &'static str,
 ) -> KeySpec {
     KeySpec::new(name, ValueSpec::Quantity(kind, sign), doc)
-}
-
-const fn planned(name: &'static str, doc: &'static str) -> KeySpec {
-    KeySpec::new(name, ValueSpec::Text, doc).refused(PLANNED_DIMENSIONS)
 }
 
 /// Where damping acts: at every twist, or only in contact.
@@ -124,7 +129,8 @@ pub static SHAFT: TableSpec = TableSpec {
     doc: "A torsional connection between two nodes; \"ground\" is the fixed node. \
           torque = p(x) + c x' + friction with x = angle(from) - angle(to). The law p is one of: \
           k1 x + k2 x² + k3 x³ + k5 x⁵ + k7 x⁷; the same of the penetration beyond a clearance or a \
-          contact; stages; a table.",
+          contact; stages; a table; or that of a round bar given by its dimensions. From a node to \
+          \"ground\" it is a grounded spring with its damper; with stiffness = 0 a damper alone.",
     keys: &[
         KeySpec::new("name", ValueSpec::Text, "Name of the element.").required(),
         KeySpec::new(
@@ -211,19 +217,26 @@ pub static SHAFT: TableSpec = TableSpec {
             ValueSpec::Table(&ENGAGEMENT),
             "A clutch that engages: how the friction comes to bear over time. Optional.",
         ),
-        planned("length", "Length."),
-        planned("outer_diameter", "Outer diameter."),
-        planned("inner_diameter", "Inner diameter."),
-        planned("shear_modulus", "Shear modulus."),
-        planned("density", "Density."),
-        planned("elements", "Number of elements."),
+        quantity(
+            "loss_factor",
+            QuantityKind::Number,
+            Sign::NonNegative,
+            "Loss factor of hysteretic damping: stiffness · (1 + i loss_factor) in `forced`, and half of it \
+             as damping ratio of a mode that only this shaft twists in. Default 0.",
+        ),
+        DIMENSIONS[0],
+        DIMENSIONS[1],
+        DIMENSIONS[2],
+        DIMENSIONS[3],
+        DIMENSIONS[4],
+        DIMENSIONS[5],
     ],
 };
 
 impl Shaft {
     pub(crate) fn read(table: &CheckedTable) -> Self {
         // A stiffness that is missing has been told, unless the torque comes from elsewhere.
-        let other_law = table.mentions("stages") || table.mentions("table");
+        let other_law = ["stages", "table", "length"].iter().any(|key| table.mentions(key));
         let stiffness = if other_law {
             table.number_or("stiffness", 0.0)
         } else {
@@ -250,6 +263,37 @@ impl Shaft {
             friction_nm: table.number_or("friction", 0.0),
             friction_speed_rad_s: table.number_or("friction_speed", FRICTION_SPEED_RAD_S),
             engagement: table.table("engagement").map(Engagement::read),
+            loss_factor: table.number_or("loss_factor", 0.0),
+            dimensions: table.mentions("length").then(|| Dimensions::read(table)),
+            inertance_kg_m2: 0.0,
+        }
+    }
+
+    /// A straight law between two nodes.
+    pub(crate) fn linear(name: String, [from, to]: [String; 2], stiffness_nm_per_rad: f64) -> Self {
+        Self {
+            name,
+            from,
+            to,
+            stiffness_nm_per_rad,
+            quadratic_nm_per_rad2: 0.0,
+            cubic_nm_per_rad3: 0.0,
+            quintic_nm_per_rad5: 0.0,
+            septic_nm_per_rad7: 0.0,
+            damping_nm_s_per_rad: 0.0,
+            damps_in_gap: true,
+            preload_nm: 0.0,
+            clearance_rad: None,
+            contact_rad: None,
+            stages: Vec::new(),
+            coast_stages: Vec::new(),
+            table: None,
+            friction_nm: 0.0,
+            friction_speed_rad_s: FRICTION_SPEED_RAD_S,
+            engagement: None,
+            loss_factor: 0.0,
+            dimensions: None,
+            inertance_kg_m2: 0.0,
         }
     }
 
@@ -258,7 +302,7 @@ impl Shaft {
     pub fn polynomial(&self) -> [f64; 8] {
         [
             0.0,
-            self.stiffness_nm_per_rad,
+            self.linear_stiffness(),
             self.quadratic_nm_per_rad2,
             self.cubic_nm_per_rad3,
             0.0,
@@ -268,9 +312,17 @@ impl Shaft {
         ]
     }
 
+    /// Stiffness at zero twist of a polynomial or a bar, N·m/rad.
+    pub fn linear_stiffness(&self) -> f64 {
+        self.dimensions.as_ref().map_or(self.stiffness_nm_per_rad, Dimensions::stiffness)
+    }
+
     /// Whether the torque is a polynomial, of the twist or of a penetration.
     fn has_polynomial(&self) -> bool {
-        self.stages.is_empty() && self.coast_stages.is_empty() && self.table.is_none()
+        self.stages.is_empty()
+            && self.coast_stages.is_empty()
+            && self.table.is_none()
+            && self.dimensions.is_none()
     }
 
     /// Whether the shaft never carries any torque.
@@ -291,7 +343,8 @@ impl Shaft {
         match key {
             "damping" => Some(&mut self.damping_nm_s_per_rad),
             "preload" => Some(&mut self.preload_nm),
-            "friction" => Some(&mut self.friction_nm),
+            "loss_factor" => Some(&mut self.loss_factor),
+            "friction" => Some(&mut self.friction_nm).filter(|_| self.dimensions.is_none()),
             "friction_speed" => Some(&mut self.friction_speed_rad_s),
             "contact" => self.contact_rad.as_mut(),
             "stiffness" => Some(&mut self.stiffness_nm_per_rad).filter(|_| polynomial),
@@ -308,7 +361,9 @@ impl Shaft {
 
     /// The numeric value behind `stages.1.until`, `table.torque.1` and the like.
     fn nested_parameter_mut(&mut self, key: &str) -> Option<&mut f64> {
-        let (list, rest) = key.split_once('.')?;
+        let Some((list, rest)) = key.split_once('.') else {
+            return self.dimensions.as_mut()?.parameter_mut(key);
+        };
         if list == "engagement" {
             return self.engagement.as_mut()?.parameter_mut(rest);
         }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::order_table::{self, ORDER_TABLE};
 use super::pulse::{PULSE, Pulse};
 use super::torque_table::{TORQUE_TABLE, TorqueTable};
 use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
@@ -103,6 +104,11 @@ pub static TORQUE: TableSpec = TableSpec {
         PHASE,
         KeySpec::new("harmonics", ValueSpec::Tables(&HARMONIC), "Further harmonics."),
         KeySpec::new(
+            "orders",
+            ValueSpec::TableOrText(&ORDER_TABLE),
+            "Further harmonics as lists of order, amplitude and phase, or the path of a CSV file of them.",
+        ),
+        KeySpec::new(
             "frequency",
             ValueSpec::Quantity(QuantityKind::Speed, Sign::Positive),
             "A fixed speed that takes the place of Ω in this torque, for `simulate`. Optional.",
@@ -154,6 +160,7 @@ impl Torque {
         };
         let mut harmonics = vec![main];
         harmonics.extend(table.tables("harmonics").iter().map(Harmonic::read));
+        harmonics.extend(table.table("orders").into_iter().flat_map(order_table::read));
         let mean = match table.word("mean") {
             Some(_) => MeanTorque::Balance,
             None => MeanTorque::Value(table.number_or("mean", 0.0)),

@@ -128,11 +128,17 @@ impl CheckedTable {
         }
     }
 
+    /// The texts of a list, empty where it is missing or unsound.
+    pub(crate) fn text_list(&self, key: &str) -> Vec<String> {
+        let text = |entry: &Entry| match &entry.value {
+            Checked::Text(text) => text.clone(),
+            _ => String::new(),
+        };
+        self.texts(key).iter().map(text).collect()
+    }
+
     /// A sound table of lists of numbers, all of which stand at `span`.
-    pub(super) fn of_numbers<const N: usize>(
-        span: Range<usize>,
-        lists: [(&'static str, Vec<f64>); N],
-    ) -> Self {
+    pub(super) fn of_numbers(span: Range<usize>, lists: Vec<(&'static str, Vec<f64>)>) -> Self {
         let entry = |(key, numbers): (&'static str, Vec<f64>)| {
             (key, Entry { span: span.clone(), value: Checked::Numbers(numbers) })
         };

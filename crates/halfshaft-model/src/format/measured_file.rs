@@ -1,8 +1,9 @@
-//! Points in a file of their own: two columns, twist and torque of a measured law or time and torque.
+//! Points in a file of their own: columns such as twist and torque of a measured law, time and torque,
+//! or order, amplitude and phase.
 //!
 //! Cells are separated by commas, semicolons, tabs or blanks; `#` begins a comment. A first line that
-//! is no number is the header: `twist [deg], torque [N·m]`, in either order; without units (or
-//! without a header, twist first) the numbers are in SI.
+//! is no number is the header: `twist [deg], torque [N·m]`, in any order; without units (or without a
+//! header, in the order told) the numbers are in SI.
 
 use std::ops::Range;
 use std::path::Path;
@@ -18,41 +19,53 @@ const MOST_TOLD: usize = 5;
 /// A column of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Column {
-    /// 0 for twist or time, 1 for torque.
+    /// Which of the quantities it holds.
     quantity: usize,
     /// SI units in one unit of the column.
     factor: f64,
 }
 
-/// Names of the two columns with what they mean.
-type Names = [(&'static str, QuantityKind); 2];
+/// Names of the columns with what they mean.
+type Names = [(&'static str, QuantityKind)];
 
 /// A measured law.
-pub(super) const OVER_TWIST: Names =
-    [("twist", QuantityKind::Angle), ("torque", QuantityKind::Torque)];
+pub(super) const OVER_TWIST: &Names =
+    &[("twist", QuantityKind::Angle), ("torque", QuantityKind::Torque)];
 /// A torque over time.
-pub(super) const OVER_TIME: Names =
-    [("time", QuantityKind::Time), ("torque", QuantityKind::Torque)];
+pub(super) const OVER_TIME: &Names =
+    &[("time", QuantityKind::Time), ("torque", QuantityKind::Torque)];
+/// Gas pressure over the crank angle.
+pub(super) const PRESSURE: &Names =
+    &[("angle", QuantityKind::Angle), ("pressure", QuantityKind::Pressure)];
+/// Torque over the crank angle.
+pub(super) const CRANK_TORQUE: &Names =
+    &[("angle", QuantityKind::Angle), ("torque", QuantityKind::Torque)];
+/// Harmonics of a torque.
+pub(super) const ORDERS: &Names = &[
+    ("order", QuantityKind::Number),
+    ("amplitude", QuantityKind::Torque),
+    ("phase", QuantityKind::Angle),
+];
 
-/// Puts the points of a file into the place of the path that stands in `table = "..."`; a file that
+/// Puts the points of a file into the place of the path that stands in `key = "..."`; a file that
 /// cannot be used is told, and the key is then unsound.
 pub(super) fn resolve(
     element: &mut CheckedTable,
-    names: &Names,
+    (key, names): (&str, &'static Names),
     model: &Path,
     found: &mut Diagnostics,
 ) {
-    let Some(Entry { span, value: Checked::Text(path) }) = element.entry("table").cloned() else {
+    let Some(Entry { span, value: Checked::Text(path) }) = element.entry(key).cloned() else {
         return;
     };
     match read_points((&path, names), model, &span, found) {
-        Some(points) => element.replace("table", Checked::Table(points)),
-        None => element.spoil("table"),
+        Some(points) => element.replace(key, Checked::Table(points)),
+        None => element.spoil(key),
     }
 }
 
 fn read_points(
-    (path, names): (&str, &Names),
+    (path, names): (&str, &'static Names),
     model: &Path,
     span: &Range<usize>,
     found: &mut Diagnostics,
@@ -82,11 +95,14 @@ fn read_points(
     if sound { Some(CheckedTable::of_numbers(span.clone(), columns)) } else { None }
 }
 
-/// The two columns in SI, and what is wrong.
-fn parse(source: &Source, names: &Names) -> ([(&'static str, Vec<f64>); 2], Vec<Diagnostic>) {
-    let mut values = names.map(|(name, _)| (name, Vec::new()));
+/// Columns by their names.
+type Values = Vec<(&'static str, Vec<f64>)>;
+
+/// The columns in SI, and what is wrong.
+fn parse(source: &Source, names: &'static Names) -> (Values, Vec<Diagnostic>) {
+    let mut values: Values = names.iter().map(|(name, _)| (*name, Vec::new())).collect();
     let mut mistakes = Vec::new();
-    let mut columns: Option<[Column; 2]> = None;
+    let mut columns: Option<Vec<Column>> = None;
     let mut start = 0;
     for line in source.text.split_inclusive('\n') {
         let cells = cells(line, start);
@@ -102,8 +118,9 @@ fn parse(source: &Source, names: &Names) -> ([(&'static str, Vec<f64>); 2], Vec<
             }
             continue;
         }
-        let order = columns.get_or_insert([0, 1].map(|quantity| Column { quantity, factor: 1.0 }));
-        match row(&cells) {
+        let plain = |quantity| Column { quantity, factor: 1.0 };
+        let order = columns.get_or_insert_with(|| (0..names.len()).map(plain).collect());
+        match row(&cells, order.len()) {
             Ok(numbers) => {
                 for (column, number) in order.iter().zip(numbers) {
                     values[column.quantity].1.push(number * column.factor);
@@ -145,34 +162,47 @@ fn begins_number(cell: &str) -> bool {
     cell.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | '−'))
 }
 
+/// Names of the columns in words: "twist and torque", "order, amplitude and phase".
+fn listed(names: &Names, last: &str) -> String {
+    let names: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
+    match names.split_last() {
+        Some((end, rest)) => format!("{} {last} {end}", rest.join(", ")),
+        None => String::new(),
+    }
+}
+
 /// Columns from a header such as `twist [deg]`, `torque (N·m)`.
-fn header(cells: &[(Range<usize>, &str)], names: &Names) -> Result<[Column; 2], Diagnostic> {
+fn header(cells: &[(Range<usize>, &str)], names: &Names) -> Result<Vec<Column>, Diagnostic> {
     let wrong = |place: &Range<usize>, message: String| {
-        let [(first, kind), (second, _)] = names;
-        let unit = if *kind == QuantityKind::Time { "ms" } else { "deg" };
-        Diagnostic::error(place.clone(), message)
-            .hint(format!("e.g. {first} [{unit}], {second} [N·m]"))
+        let unit = |kind: QuantityKind| match kind {
+            QuantityKind::Time => "ms",
+            QuantityKind::Angle => "deg",
+            QuantityKind::Pressure => "bar",
+            kind => kind.si_unit(),
+        };
+        let example: Vec<String> =
+            names.iter().map(|(name, kind)| format!("{name} [{}]", unit(*kind))).collect();
+        Diagnostic::error(place.clone(), message).hint(format!("e.g. {}", example.join(", ")))
     };
     let whole = cells[0].0.start..cells[cells.len() - 1].0.end;
-    let [first, second] = cells else {
-        return Err(wrong(
-            &whole,
-            format!("{} columns, not {} and {}", cells.len(), names[0].0, names[1].0),
-        ));
-    };
+    if cells.len() != names.len() {
+        let message = format!("{} columns, not {}", cells.len(), listed(names, "and"));
+        return Err(wrong(&whole, message));
+    }
     let column = |(place, text): &(Range<usize>, &str)| {
         let text = text.trim_matches('"');
         let (name, unit) = text.split_once(['[', '(']).unwrap_or((text, ""));
         let name = name.trim().to_lowercase();
         let Some(quantity) = names.iter().position(|(known, _)| *known == name) else {
-            return Err(wrong(
-                place,
-                format!("\"{text}\" is neither {} nor {}", names[0].0, names[1].0),
-            ));
+            let known = listed(names, if names.len() == 2 { "nor" } else { "or" });
+            let word = if names.len() == 2 { "neither" } else { "not one of" };
+            return Err(wrong(place, format!("\"{text}\" is {word} {known}")));
         };
         let unit = unit.trim_end_matches([']', ')']).trim();
         let kind = names[quantity].1;
-        let unit = if unit.is_empty() { kind.si_unit() } else { unit };
+        if unit.is_empty() || kind == QuantityKind::Number {
+            return Ok(Column { quantity, factor: 1.0 });
+        }
         match parse_quantity(&format!("1 {unit}"), kind) {
             Ok(factor) => Ok(Column { quantity, factor }),
             Err(error) => {
@@ -181,21 +211,24 @@ fn header(cells: &[(Range<usize>, &str)], names: &Names) -> Result<[Column; 2], 
             }
         }
     };
-    let columns = [column(first)?, column(second)?];
-    if columns[0].quantity == columns[1].quantity {
-        return Err(wrong(&second.0, "this column is there twice".to_owned()));
+    let columns: Vec<Column> = cells.iter().map(column).collect::<Result<_, _>>()?;
+    let twice = (1..columns.len())
+        .find(|at| columns[..*at].iter().any(|before| before.quantity == columns[*at].quantity));
+    match twice {
+        Some(at) => Err(wrong(&cells[at].0, "this column is there twice".to_owned())),
+        None => Ok(columns),
     }
-    Ok(columns)
 }
 
-/// The two numbers of a line, in the order of the columns.
-fn row(cells: &[(Range<usize>, &str)]) -> Result<[f64; 2], Diagnostic> {
-    let [first, second] = cells else {
+/// The numbers of a line, in the order of the columns.
+fn row(cells: &[(Range<usize>, &str)], wanted: usize) -> Result<Vec<f64>, Diagnostic> {
+    if cells.len() != wanted {
         let whole = cells[0].0.start..cells[cells.len() - 1].0.end;
-        let message = format!("a point has two numbers, not {}", cells.len());
-        let hint = "write two numbers a line; decimals have a point";
+        let count = if wanted == 2 { "two" } else { "three" };
+        let message = format!("a point has {count} numbers, not {}", cells.len());
+        let hint = format!("write {count} numbers a line; decimals have a point");
         return Err(Diagnostic::error(whole, message).hint(hint));
-    };
+    }
     let number = |(place, text): &(Range<usize>, &str)| {
         let plain = text.trim_matches('"').replace('−', "-");
         let value = plain.parse::<f64>().ok().filter(|value| value.is_finite());
@@ -210,17 +243,17 @@ fn row(cells: &[(Range<usize>, &str)]) -> Result<[f64; 2], Diagnostic> {
             }
         })
     };
-    Ok([number(first)?, number(second)?])
+    cells.iter().map(number).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn points(text: &str) -> [Vec<f64>; 2] {
-        let (values, mistakes) = parse(&Source::new("law.csv", text), &OVER_TWIST);
+    fn points(text: &str) -> Vec<Vec<f64>> {
+        let (values, mistakes) = parse(&Source::new("law.csv", text), OVER_TWIST);
         assert!(mistakes.is_empty(), "{mistakes:?}");
-        values.map(|(_, numbers)| numbers)
+        values.into_iter().map(|(_, numbers)| numbers).collect()
     }
 
     // Source: the same points written in several ways.
@@ -239,7 +272,7 @@ mod tests {
                 assert!((found - expected).abs() < 1e-15, "{text}");
             }
         }
-        let [twist, _] = points("twist [deg], torque [N·m]\n180, 1\n");
+        let twist = points("twist [deg], torque [N·m]\n180, 1\n").remove(0);
         assert!((twist[0] - std::f64::consts::PI).abs() < 1e-15);
     }
 
@@ -247,7 +280,7 @@ mod tests {
     fn mistakes_have_their_place() {
         let told = |text: &str| {
             let source = Source::new("law.csv", text);
-            let (_, mistakes) = parse(&source, &OVER_TWIST);
+            let (_, mistakes) = parse(&source, OVER_TWIST);
             let first = mistakes.first().expect("is wrong").clone();
             (source.excerpt(&first.span).to_owned(), first.message, first.hint.unwrap_or_default())
         };

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use crate::diagnostic::{Diagnostic, Diagnostics, Source, with_article};
 use crate::driveline::{Driveline, Places, validate};
 use crate::elements::{
-    GEAR, Gear, INERTIA, Inertia, PULSE, PulseShape, SHAFT, Shaft, TORQUE, Torque, check_gear,
-    check_shaft, check_torque,
+    DAMPER, Damper, ENGINE, Engine, GEAR, Gear, INERTIA, Inertia, PULSE, PulseShape, SHAFT, Shaft,
+    TORQUE, Torque, WHOLE_LINE, WholeLine, check_engine, check_gear, check_shaft, check_torque,
 };
 use crate::format::checked::CheckedTable;
 use crate::format::measured_file;
@@ -29,6 +29,9 @@ pub static MODEL: TableSpec = TableSpec {
         KeySpec::new("gear", ValueSpec::Tables(&GEAR), "Gears, rigid or elastic."),
         KeySpec::new("shaft", ValueSpec::Tables(&SHAFT), "Torsional connections."),
         KeySpec::new("torque", ValueSpec::Tables(&TORQUE), "External torques."),
+        KeySpec::new("damper", ValueSpec::Tables(&DAMPER), "Torsional vibration dampers."),
+        KeySpec::new("engine", ValueSpec::Tables(&ENGINE), "Piston engines as sources of orders."),
+        KeySpec::new("line", ValueSpec::Table(&WHOLE_LINE), "The line as a whole."),
     ],
 };
 
@@ -66,11 +69,16 @@ pub fn read_model(
         return Err(found);
     };
     let path = PathBuf::from(&found.sources[0].name);
-    for shaft in document.tables_mut("shaft") {
-        measured_file::resolve(shaft, &measured_file::OVER_TWIST, &path, &mut found);
-    }
-    for torque in document.tables_mut("torque") {
-        measured_file::resolve(torque, &measured_file::OVER_TIME, &path, &mut found);
+    for (list, key, names) in [
+        ("shaft", "table", measured_file::OVER_TWIST),
+        ("torque", "table", measured_file::OVER_TIME),
+        ("torque", "orders", measured_file::ORDERS),
+        ("engine", "pressure", measured_file::PRESSURE),
+        ("engine", "torque", measured_file::CRANK_TORQUE),
+    ] {
+        for element in document.tables_mut(list) {
+            measured_file::resolve(element, (key, names), &path, &mut found);
+        }
     }
     check_keys(&document, &mut found);
     let (mut line, places) = build(&document);
@@ -94,6 +102,9 @@ fn build(document: &CheckedTable) -> (Driveline, Places<'_>) {
         gears: places.read("gear", Gear::read),
         shafts: places.read("shaft", Shaft::read),
         torques: places.read("torque", Torque::read),
+        dampers: places.read("damper", Damper::read),
+        engines: places.read("engine", Engine::read),
+        whole: document.table("line").map(WholeLine::read).unwrap_or_default(),
     };
     (line, places)
 }
@@ -106,6 +117,7 @@ fn check_keys(document: &CheckedTable, found: &mut Diagnostics) {
         check_torque(torque, found);
         check_pulse(torque, found);
     }
+    document.tables("engine").iter().for_each(|engine| check_engine(engine, found));
 }
 
 /// A pulse needs other keys for each shape, which the list of keys cannot say.

@@ -47,7 +47,8 @@ impl Reader<'_> {
     /// The shaft whose state is varied or recorded, which must be one of the line's.
     pub(super) fn shaft(&mut self) -> Option<String> {
         let written = self.text.shaft.as_deref()?;
-        let names: Vec<&str> = self.line.connection_names().collect();
+        let line = self.line.expanded();
+        let names: Vec<&str> = line.connection_names().collect();
         if names.contains(&written) {
             return Some(written.to_owned());
         }
@@ -60,7 +61,8 @@ impl Reader<'_> {
     /// The node that shocks act on, which must be one of the line's.
     fn shocked_node(&mut self) -> Option<String> {
         let written = self.text.shock.as_deref()?;
-        let nodes = Topology::of(self.line).map(|topology| topology.nodes).unwrap_or_default();
+        let nodes =
+            Topology::of(&self.line.expanded()).map(|topology| topology.nodes).unwrap_or_default();
         let names: Vec<&str> = nodes.iter().map(|node| node.name.as_str()).collect();
         if names.contains(&written) {
             return Some(written.to_owned());

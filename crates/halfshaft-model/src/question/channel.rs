@@ -112,6 +112,7 @@ pub(super) fn parse_channel(name: &str, line: &Driveline) -> Result<Channel, (St
             (format!("\"{word}\" is no channel of \"{owner}\""), hint)
         })?;
     let of_node = matches!(quantity, ChannelQuantity::Angle | ChannelQuantity::Speed);
+    let line = &*line.expanded();
     let topology = Topology::of(line).map_err(|error| (error.to_string(), String::new()))?;
     let known: Vec<&str> = if of_node {
         topology.nodes.iter().map(|node| node.name.as_str()).collect()

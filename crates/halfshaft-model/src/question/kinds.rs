@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::bifurcation::BifurcationQuestion;
 use super::channel::InitialValue;
+use super::linear::{CampbellQuestion, ForcedQuestion};
 use super::simulate::SimulateQuestion;
 use crate::format::words;
 
@@ -17,6 +18,10 @@ pub enum Verb {
     Static,
     /// Natural frequencies, damping and shapes about the equilibrium.
     Modes,
+    /// Natural frequencies over the orders of the excitation: critical speeds.
+    Campbell,
+    /// Linear vibration over the excitation speed, order by order.
+    Forced,
     /// A time history.
     Simulate,
     /// The response to a pulse or an initial twist.
@@ -33,10 +38,12 @@ pub enum Verb {
 
 impl Verb {
     /// All verbs with their names.
-    pub const ALL: [(&'static str, Self); 9] = [
+    pub const ALL: [(&'static str, Self); 11] = [
         ("check", Self::Check),
         ("static", Self::Static),
         ("modes", Self::Modes),
+        ("campbell", Self::Campbell),
+        ("forced", Self::Forced),
         ("simulate", Self::Simulate),
         ("shock", Self::Shock),
         ("resonance", Self::Resonance),
@@ -61,6 +68,10 @@ pub enum Question {
     Static,
     /// See [`Verb::Modes`].
     Modes(ModesQuestion),
+    /// See [`Verb::Campbell`].
+    Campbell(CampbellQuestion),
+    /// See [`Verb::Forced`].
+    Forced(ForcedQuestion),
     /// See [`Verb::Simulate`].
     Simulate(SimulateQuestion),
     /// See [`Verb::Shock`].
@@ -82,6 +93,8 @@ impl Question {
             Self::Check => Verb::Check,
             Self::Static => Verb::Static,
             Self::Modes(_) => Verb::Modes,
+            Self::Campbell(_) => Verb::Campbell,
+            Self::Forced(_) => Verb::Forced,
             Self::Simulate(_) => Verb::Simulate,
             Self::Shock(_) => Verb::Shock,
             Self::Resonance(_) => Verb::Resonance,
@@ -98,6 +111,9 @@ pub struct ModesQuestion {
     /// Which equilibrium, counted from 1 as `static` lists them; `None` for the stable one
     /// nearest to zero twist.
     pub equilibrium: Option<usize>,
+    /// How many of the lowest elastic modes; `None` for all of a line of a few hundred degrees of
+    /// freedom, the lowest twenty of a longer one.
+    pub count: Option<usize>,
 }
 
 /// State before the disturbance.

@@ -7,6 +7,7 @@ mod basins;
 mod bifurcation;
 mod channel;
 mod kinds;
+mod linear;
 mod parameter_axis;
 mod periodic;
 mod read;
@@ -21,6 +22,7 @@ pub use kinds::{
     ResonanceMethod, ResonanceQuestion, ShockEquation, ShockMethod, ShockQuestion, StabilityMethod,
     Start, Verb,
 };
+pub use linear::{CampbellQuestion, ForcedQuestion};
 pub use read::read;
 pub use simulate::{DryFriction, IntegratorChoice, SimulateQuestion};
 pub use text::{OptionError, QuestionText};

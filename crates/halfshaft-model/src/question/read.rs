@@ -24,7 +24,10 @@ pub fn read(
         Verb::Static => Question::Static,
         Verb::Modes => Question::Modes(ModesQuestion {
             equilibrium: reader.count("equilibrium", text.equilibrium.as_deref(), 1, 10_000),
+            count: reader.count("count", text.count.as_deref(), 1, 10_000),
         }),
+        Verb::Campbell => Question::Campbell(reader.campbell()),
+        Verb::Forced => Question::Forced(reader.forced()),
         Verb::Simulate => Question::Simulate(reader.simulate()),
         Verb::Shock => Question::Shock(reader.shock()),
         Verb::Resonance => Question::Resonance(reader.resonance()),

@@ -9,10 +9,8 @@ pub struct QuestionText {
     pub initial: Vec<String>,
     /// `--start`.
     pub start: Option<String>,
-    /// `--frequency`: one speed or a run from one to another for `simulate`, one for `basins` and beside a `--parameter` of `resonance`, a range for
-    /// the others.
-    /// `--frequency`: one speed for `simulate`, `basins` and beside a `--parameter` of `resonance` and
-    /// `bifurcation`, a range for the others.
+    /// `--frequency`: one speed or a run from one to another for `simulate`, one for `basins` and beside
+    /// a `--parameter` of `resonance` and `bifurcation`, a range for the others.
     pub frequency: Option<String>,
     /// `--step`.
     pub step: Option<String>,
@@ -60,7 +58,7 @@ pub struct QuestionText {
     pub rate: Option<String>,
     /// `--integrator`.
     pub integrator: Option<String>,
-    /// `--orders`.
+    /// `--orders`: a channel for `simulate`, numbers for `campbell` and `forced`.
     pub orders: Option<String>,
     /// `--friction`.
     pub friction: Option<String>,
@@ -72,6 +70,12 @@ pub struct QuestionText {
     pub direction: Option<String>,
     /// `--no-branches`.
     pub no_branches: bool,
+    /// `--count`.
+    pub count: Option<String>,
+    /// `--operating`.
+    pub operating: Option<String>,
+    /// `--node`.
+    pub node: Option<String>,
 }
 
 /// What is wrong with one option.

@@ -221,6 +221,7 @@ impl Reader<'_> {
 /// Columns of a time history of a line: the time, three channels a shaft and two a node.
 #[expect(clippy::cast_precision_loss, reason = "files are too small for so many elements")]
 fn columns_of(line: &Driveline) -> f64 {
-    let (topology, _) = Topology::with_contradictions(line);
+    let line = line.expanded();
+    let (topology, _) = Topology::with_contradictions(&line);
     (1 + 3 * line.connection_names().count() + 2 * topology.nodes.len()) as f64
 }

@@ -353,6 +353,9 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         transient: option("transient"),
         direction: option("direction"),
         no_branches: table.flag("no-branches"),
+        count: option("count"),
+        operating: option("operating"),
+        node: option("node"),
     }
 }
 

@@ -23,6 +23,14 @@ pub enum QuantityKind {
     Time,
     /// Angular impulse, N·m·s.
     Impulse,
+    /// Length, m.
+    Length,
+    /// Mass, kg.
+    Mass,
+    /// Pressure or elastic modulus, Pa.
+    Pressure,
+    /// Mass per volume, kg/m³.
+    Density,
     /// A pure number such as a ratio or an order.
     Number,
 }
@@ -89,6 +97,10 @@ impl QuantityKind {
             Self::Acceleration => Dimension::SPEED - Dimension::TIME,
             Self::Time => Dimension::TIME,
             Self::Impulse => Dimension::new(2, 1, -1, 0),
+            Self::Length => Dimension::LENGTH,
+            Self::Mass => Dimension::MASS,
+            Self::Pressure => Dimension::PRESSURE,
+            Self::Density => Dimension::new(-3, 1, 0, 0),
             Self::Number => Dimension::NONE,
         }
     }
@@ -110,6 +122,10 @@ impl QuantityKind {
             Self::Acceleration => "rad/s²",
             Self::Time => "s",
             Self::Impulse => "N·m·s",
+            Self::Length => "m",
+            Self::Mass => "kg",
+            Self::Pressure => "Pa",
+            Self::Density => "kg/m³",
             Self::Number => "1",
         }
     }
@@ -127,6 +143,10 @@ impl QuantityKind {
             Self::Acceleration => "a rate of speed",
             Self::Time => "a time",
             Self::Impulse => "an angular impulse",
+            Self::Length => "a length",
+            Self::Mass => "a mass",
+            Self::Pressure => "a pressure",
+            Self::Density => "a density",
             Self::Number => "a pure number",
         }
     }
@@ -147,6 +167,10 @@ impl QuantityKind {
             Self::Acceleration => &["rad/s²", "rpm/s", "Hz/s"],
             Self::Time => &["s", "ms", "min", "h"],
             Self::Impulse => &["N·m·s"],
+            Self::Length => &["m", "mm", "in"],
+            Self::Mass => &["kg", "g", "lb"],
+            Self::Pressure => &["Pa", "bar", "MPa", "GPa"],
+            Self::Density => &["kg/m³", "g/cm³"],
             Self::Number => &["no unit"],
         }
     }

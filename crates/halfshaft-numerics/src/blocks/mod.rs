@@ -14,7 +14,9 @@
 mod kernel;
 mod large;
 mod pattern;
+mod symmetric;
 mod system;
 
 pub use pattern::Pattern;
+pub use symmetric::{Scalar, SymmetricSystem};
 pub use system::{BlockSystem, Factors};

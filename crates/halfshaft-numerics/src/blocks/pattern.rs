@@ -27,16 +27,16 @@ impl Pattern {
         }
         let mut order = Vec::with_capacity(nodes);
         let mut later_nodes = Vec::with_capacity(nodes);
-        let mut left: Vec<bool> = vec![true; nodes];
-        for _ in 0..nodes {
-            let least =
-                (0..nodes).filter(|node| left[*node]).min_by_key(|node| joined[*node].len());
-            let Some(node) = least else { break };
-            left[node] = false;
+        // Those with the fewest neighbours first, and of those the first.
+        let mut left: std::collections::BTreeSet<(usize, usize)> =
+            joined.iter().enumerate().map(|(node, around)| (around.len(), node)).collect();
+        while let Some((_, node)) = left.pop_first() {
             let around: Vec<usize> = joined[node].iter().copied().collect();
             for &a in &around {
+                left.remove(&(joined[a].len(), a));
                 joined[a].remove(&node);
                 joined[a].extend(around.iter().copied().filter(|b| *b != a));
+                left.insert((joined[a].len(), a));
             }
             order.push(node);
             later_nodes.push(around);

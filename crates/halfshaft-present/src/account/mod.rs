@@ -9,8 +9,10 @@ pub(crate) use grid::{Grid, GridColumn, Tone};
 
 pub(crate) mod basins;
 pub(crate) mod bifurcation;
+pub(crate) mod campbell;
 pub(crate) mod check;
 pub(crate) mod folds;
+pub(crate) mod forced;
 pub(crate) mod head;
 pub(crate) mod history;
 pub(crate) mod jumps;
@@ -108,6 +110,8 @@ pub(crate) fn of(answer: &Answer) -> Account {
         Answer::Check(result) => check::account(result),
         Answer::Static(result) => statics::account(result),
         Answer::Modes(result) => modes::account(result),
+        Answer::Campbell(result) => campbell::account(result),
+        Answer::Forced(result) => forced::account(result),
         Answer::History(result) if result.shock.is_some() => shock::account(result),
         Answer::History(result) => history::account(result),
         Answer::Resonance(result) => resonance::account(result),

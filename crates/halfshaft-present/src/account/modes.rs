@@ -1,7 +1,8 @@
 //! What is told of the modes.
 
-use halfshaft_results::{Mode, ModesResult};
+use halfshaft_results::{Gear, Mode, ModesResult};
 
+use super::campbell::gear_table;
 use super::{Account, Grid};
 use crate::words::{angle, counted, frequency_words, list, percent, plain};
 
@@ -13,6 +14,14 @@ pub(crate) fn account(result: &ModesResult) -> Account {
     let mut account = Account::default();
     account.text(opening(result));
     account.grid(table(result));
+    if !result.gears.is_empty() {
+        let rows: Vec<(&Gear, &[f64], &[f64])> = result
+            .gears
+            .iter()
+            .map(|row| (&row.gear, row.frequency.as_slice(), row.damping_ratio.as_slice()))
+            .collect();
+        account.grid(gear_table(&rows));
+    }
     let elastic: Vec<&Mode> = elastic(result).take(SHAPES).collect();
     for number in 1..=elastic.len() {
         account.figure(crate::figures::modes::id(number));
@@ -42,7 +51,10 @@ fn opening(result: &ModesResult) -> Vec<String> {
     };
     let also = if rigid { ", besides turning as a whole" } else { "" };
     let count = counted(elastic.len(), "mode", "modes");
-    let mut sentences = vec![format!("The line vibrates in {count}{also}.")];
+    let mut sentences = vec![match result.elastic_modes {
+        Some(all) => format!("The lowest {count} of {all}{also}."),
+        None => format!("The line vibrates in {count}{also}."),
+    }];
     if lowest.damped_frequency > 0.0 {
         sentences.push(format!(
             "The lowest stands at {} with {} of critical damping: {}.",

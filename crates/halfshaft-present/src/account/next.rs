@@ -16,6 +16,13 @@ pub(crate) fn next(answer: &Answer) -> Option<String> {
             "`halfshaft resonance` for the vibration under the oscillating torques, `halfshaft \
              shock` for the answer to a load pulse"
         }
+        Answer::Campbell(_) => {
+            "`halfshaft forced` for the torques and accelerations at these speeds"
+        }
+        Answer::Forced(_) => {
+            "`--shaft NAME` and `--node NAME` for every order of one of them, `halfshaft campbell` for \
+             which modes the peaks belong to"
+        }
         Answer::History(result) => after_history(result)?,
         Answer::Resonance(result) => return Some(after_resonance(result)),
         Answer::Folds(_) => {

@@ -14,7 +14,9 @@ pub use study::study_figures;
 
 pub(crate) mod basins;
 pub(crate) mod bifurcation;
+pub(crate) mod campbell;
 pub(crate) mod folds;
+pub(crate) mod forced;
 pub(crate) mod history;
 pub(crate) mod levels;
 pub(crate) mod methods;
@@ -39,6 +41,8 @@ pub fn of(answer: &Answer) -> Vec<Figure> {
         Answer::Check(_) => Vec::new(),
         Answer::Static(result) => statics::figures(result),
         Answer::Modes(result) => modes::figures(result),
+        Answer::Campbell(result) => campbell::figures(result),
+        Answer::Forced(result) => forced::figures(result),
         Answer::History(result) => {
             let mut figures = history::figures(result);
             figures.extend(methods::figure(result));

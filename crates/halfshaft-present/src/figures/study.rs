@@ -114,8 +114,14 @@ fn tables(answer: &Answer) -> Vec<Columns<'_>> {
             .iter()
             .map(|(shaft, table)| Columns { shaft: Some(shaft), columns: &table.columns })
             .collect(),
+        Answer::Forced(result) => result
+            .gears
+            .iter()
+            .map(|gear| Columns { shaft: None, columns: &gear.table.columns })
+            .collect(),
         Answer::Check(_)
         | Answer::Modes(_)
+        | Answer::Campbell(_)
         | Answer::Basins(_)
         | Answer::Bifurcation(_)
         | Answer::Study(_)

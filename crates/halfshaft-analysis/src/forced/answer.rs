@@ -1,0 +1,105 @@
+//! From a line to the answer of `forced`.
+
+use halfshaft_model::Driveline;
+use halfshaft_model::question::{ForcedQuestion, Question};
+use halfshaft_numerics::observer::Observer;
+use halfshaft_results::{ForcedGear, ForcedResult, Gear, Header, Reason, Termination};
+
+use super::channels::channels;
+use super::engines;
+use super::speeds::speeds;
+use super::sweep::Sweep;
+use super::synthesis::multiples;
+use crate::campbell::{default_range, gear_words};
+use crate::error::AnalysisError;
+use crate::header::header;
+use crate::modal::vibration::{Vibration, gears};
+
+/// Answers `forced`.
+pub(crate) fn solve(
+    line: &Driveline,
+    question: &ForcedQuestion,
+    observer: &dyn Observer,
+) -> Result<ForcedResult, AnalysisError> {
+    let mut header = header(line, &Question::Forced(question.clone()));
+    let here = Vibration::of(line, None)?;
+    here.told(&mut header);
+    let orders = orders(&here, question)?;
+    if multiples(&orders).is_none() {
+        header.assumptions.push(
+            "the orders have no common period: at some time all of them meet, so amplitudes add up"
+                .to_owned(),
+        );
+    }
+    let mut told = Vec::new();
+    for (gear, line) in gears(line)? {
+        if observer.cancelled() {
+            stopped(&mut header, told.len());
+            break;
+        }
+        let vibration = match Vibration::of(&line, None) {
+            Err(AnalysisError::NoEquilibrium { reason }) => {
+                header.warnings.push(format!("{} is left out: {reason}", gear_words(&gear)));
+                continue;
+            }
+            other => other?,
+        };
+        told.push(in_gear(gear, &line, &vibration, question, &orders, observer)?);
+        undamped(&vibration, &mut header);
+    }
+    Ok(ForcedResult { header, orders, engines: engines::tables(line), gears: told })
+}
+
+fn in_gear(
+    gear: Gear,
+    line: &Driveline,
+    vibration: &Vibration,
+    question: &ForcedQuestion,
+    orders: &[f64],
+    observer: &dyn Observer,
+) -> Result<ForcedGear, AnalysisError> {
+    let range = match question.frequency {
+        Some(range) => range,
+        None => default_range(line, vibration, orders)?,
+    };
+    let speeds = speeds(vibration, question, orders, range)?;
+    let mut sweep = Sweep::new(vibration, orders, channels(vibration, question));
+    sweep.run(&speeds, observer)?;
+    Ok(sweep.into_result(gear))
+}
+
+/// Orders that act and are asked for.
+fn orders(vibration: &Vibration, question: &ForcedQuestion) -> Result<Vec<f64>, AnalysisError> {
+    let acting = vibration.equations.excitation.orders();
+    if acting.is_empty() {
+        let reason = "no torque of the model has an order".to_owned();
+        return Err(AnalysisError::NoExcitation { reason });
+    }
+    let Some(asked) = &question.orders else { return Ok(acting) };
+    let known = acting.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    let orders: Vec<f64> = acting.into_iter().filter(|order| asked.contains(order)).collect();
+    if orders.is_empty() {
+        let reason = format!("none of the orders asked for acts; the model's are {known}");
+        return Err(AnalysisError::NoExcitation { reason });
+    }
+    Ok(orders)
+}
+
+/// Says where nothing but the step of the speeds bounds a resonance.
+fn undamped(vibration: &Vibration, header: &mut Header) {
+    let equations = &vibration.equations;
+    let damped = equations.modal_damping > 0.0
+        || equations.connections.iter().any(|c| c.damping > 0.0 || c.loss_factor > 0.0)
+        || equations.ground_damping.iter().any(|damping| *damping > 0.0);
+    let warning = "nothing damps the line: peaks are as high as speeds come near the resonances";
+    if !damped && header.warnings.iter().all(|known| known != warning) {
+        header.warnings.push(warning.to_owned());
+    }
+}
+
+fn stopped(header: &mut Header, gears: usize) {
+    header.termination = Termination::early(
+        Reason::Cancelled,
+        format!("stopped after {gears} gears; those are complete"),
+    );
+}

@@ -1,0 +1,63 @@
+//! Modes of long lines, of lines with massless nodes, and of bars with consistent inertia.
+
+use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_numerics::pencil::{Pencil, PencilTerm};
+
+use super::elastic::ElasticMode;
+use crate::error::{AnalysisError, Doing};
+
+/// Stiffness and inertia of a line about given twists, connections first and then the groups.
+pub(crate) fn terms(equations: &EquationsOfMotion, twists: &[f64]) -> Vec<PencilTerm> {
+    let connections = equations.connections.iter().zip(twists).filter_map(|(connection, x)| {
+        let from = connection.from;
+        let to = connection.to.map(|(group, ratio)| (group, -ratio));
+        let (first, second) = match (from, to) {
+            (Some(first), second) => (first, second),
+            (None, Some(second)) => (second, None),
+            (None, None) => return None,
+        };
+        let (stiffness, inertia) = (connection.law.stiffness(*x), connection.inertance);
+        Some(PencilTerm { first, second, stiffness, inertia })
+    });
+    let groups = equations.inertia.iter().enumerate().map(|(group, inertia)| PencilTerm {
+        first: (group, 1.0),
+        second: None,
+        stiffness: 0.0,
+        inertia: *inertia,
+    });
+    connections.chain(groups).collect()
+}
+
+/// Number of elastic modes: one for each group with inertia, but for turning as a whole.
+pub(crate) fn elastic_count(equations: &EquationsOfMotion) -> usize {
+    let heavy = equations.inertia.iter().filter(|inertia| **inertia > 0.0).count();
+    heavy - usize::from(equations.rigid.is_some()).min(heavy)
+}
+
+/// Turning as a whole, of inertia one.
+pub(crate) fn rigid_shape(equations: &EquationsOfMotion) -> Option<Vec<f64>> {
+    let rigid = equations.rigid.as_ref()?;
+    let length = rigid.inertia.sqrt();
+    Some(rigid.speeds.iter().map(|speed| speed / length).collect())
+}
+
+/// The lowest elastic modes about given twists, ascending.
+pub(super) fn lowest(
+    equations: &EquationsOfMotion,
+    twists: &[f64],
+    count: usize,
+) -> Result<Vec<ElasticMode>, AnalysisError> {
+    let pencil = Pencil::new(equations.groups(), terms(equations, twists));
+    let known: Vec<Vec<f64>> = rigid_shape(equations).into_iter().collect();
+    let count = count.min(elastic_count(equations));
+    let pairs = pencil.lowest(count, &known).doing("computing natural frequencies")?;
+    let mode = |pair: halfshaft_numerics::pencil::EigenPair| {
+        let twist = |index| equations.twist(index, &pair.vector);
+        ElasticMode {
+            eigenvalue: pair.value,
+            twists: (0..equations.connections.len()).map(twist).collect(),
+            shape: pair.vector,
+        }
+    };
+    Ok(pairs.into_iter().map(mode).collect())
+}
