@@ -23,6 +23,7 @@ def halfshaft(program=None, example=None):
     if program is None:
         print("building halfshaft ...", file=sys.stderr, flush=True)
         program = built("halfshaft-cli") / "halfshaft"
+        built("halfshaft-parquet")
         example = example or built("halfshaft-analysis", "torsional_times") / "examples" / "torsional_times"
     program = Path(program)
     return program, Path(example or program.parent / "examples" / "torsional_times")

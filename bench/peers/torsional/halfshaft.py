@@ -9,9 +9,22 @@ from environments import Failure, quietly
 from processes import measured
 
 
-def column(table, name):
-    """Values of a column; a missing one is a torque that is not there."""
-    return next((c["values"] for c in table["columns"] if c["name"] == name), None)
+def every_shaft(line):
+    """The flag that asks for all orders of all shafts, which long lines do not tell unasked."""
+    return ["--shaft", ",".join(f"shaft {i}" for i in range(1, len(line.shafts) + 1))]
+
+
+def by_order(answer, case, acting=None):
+    """Moduli of the shaft torques over speed, shaft and order; 0 for an order that does not act."""
+    # A line without gears that change is one table.
+    columns = {c["name"]: c["values"] for c in answer["gears"][0]["table"]["columns"]}
+    orders = list(zip(case.torque.orders, acting or [True] * len(case.torque.orders)))
+    try:
+        shafts = [[columns[f"shaft {shaft}.torque.order{order}"] if acts else [0.0] * len(columns["frequency"])
+                   for order, acts in orders] for shaft in range(1, len(case.line.shafts) + 1)]
+    except KeyError as name:
+        raise Failure(f"no column {name}") from None
+    return [[[values[at] for values in shaft] for shaft in shafts] for at in range(len(columns["frequency"]))]
 
 
 class Halfshaft:
@@ -74,17 +87,10 @@ class Halfshaft:
             name = f"{case.key}-{at + 1}"
             model = models.written(self.work, name, case.title, case.line, case.torque, at)
             words = ["forced", model, "--frequency", f"{speed!r}..{speed * 1.001!r}", "--points", 2]
-            # A line without gears that change is one table.
-            table = self.answer(words)["gears"][0]["table"]
-            found.append([self.orders(table, shaft, case.torque.orders)
-                          for shaft in range(1, len(case.line.shafts) + 1)])
+            answer = self.answer([*words, *every_shaft(case.line)])
+            acting = [amplitude > 0.0 for amplitude in case.torque.amplitudes[at]]
+            found.append(by_order(answer, case, acting)[0])
         return found
-
-    @staticmethod
-    def orders(table, shaft, orders):
-        """Torque of a shaft at the first speed of a table, by orders; 0 where nothing excites one."""
-        columns = (column(table, f"shaft {shaft}.torque.order{order}") for order in orders)
-        return [values[0] if values else 0.0 for values in columns]
 
     def seconds(self, words):
         """Seconds of an analysis by itself, repeated in one process."""

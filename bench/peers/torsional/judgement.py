@@ -6,7 +6,7 @@ import numpy as np
 ZERO = 1e-3
 
 
-def elastic_modes(found, wanted):
+def vibrating(found, wanted):
     """The found frequencies without those that should be zero, and the largest of these."""
     found, wanted = np.sort(found), np.array([f for f in wanted if f > 0.0])
     low = found < ZERO * wanted[0]
@@ -15,7 +15,7 @@ def elastic_modes(found, wanted):
 
 def frequencies(case, found):
     """Largest relative difference of the frequencies that are not zero, and a remark."""
-    found, _, wanted = elastic_modes(found, case.frequencies)
+    found, _, wanted = vibrating(found, case.frequencies)
     if len(found) < len(wanted):
         return None, f"{len(found)} of {len(wanted)} frequencies"
     return float(np.max(np.abs(found[:len(wanted)] / wanted - 1.0))), ""
@@ -68,7 +68,7 @@ def apart(case, quantity, one, other):
         return "-"
     a, b = one[quantity], other[quantity]
     if quantity == "frequencies":
-        a, b = (elastic_modes(f, case.frequencies)[0] for f in (a, b))
+        a, b = (vibrating(f, case.frequencies)[0] for f in (a, b))
         return f"{np.max(np.abs(a / b - 1.0)):.1e}" if len(a) == len(b) else "-"
     if quantity == "eigenvalues":
         a, b = (np.array([complex(*v) for v in values if abs(complex(*v)) > 1e-3]) for values in (a, b))
@@ -82,7 +82,7 @@ def published(case, said):
     """Whether a program's frequencies, rounded, are those in print."""
     if not case.published or "frequencies" not in said:
         return None
-    found, _, _ = elastic_modes(said["frequencies"], case.frequencies)
+    found, _, _ = vibrating(said["frequencies"], case.frequencies)
     printed = [value for value in case.published if float(value) > 0.0]
     near = (abs(f - float(value)) <= 0.5001 * 10.0 ** -len(value.partition(".")[2])
             for f, value in zip(found, printed))
@@ -91,4 +91,4 @@ def published(case, said):
 
 def rigid(case, said):
     """Largest frequency in Hz that should be zero."""
-    return elastic_modes(said["frequencies"], case.frequencies)[1] if "frequencies" in said else 0.0
+    return vibrating(said["frequencies"], case.frequencies)[1] if "frequencies" in said else 0.0

@@ -62,7 +62,7 @@ def measured(part, half, peers, chosen):
     count, points, repeats = chosen.count, chosen.points, chosen.repeats
     damping = {"modes": "none", "damped": "shafts", "forced": "shafts", "modal": "modes"}[part]
     with_damping = {"none": "no damping", "shafts": "damping in the shafts", "modes": "modal damping"}[damping]
-    case = uniform.case(count, damping, points)
+    case = uniform.case(count, damping, points if part in ("forced", "modal") else 1)
     if part in ("modes", "damped"):
         rows, quantity = timing.modes(half, peers, count, repeats, damping), "frequencies"
         title = f"Modes of {count} inertias, {with_damping}"

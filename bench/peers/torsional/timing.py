@@ -6,6 +6,7 @@ import kept
 import models
 import uniform
 from environments import Failure
+from halfshaft import every_shaft
 from processes import median
 from table import plain
 
@@ -69,7 +70,7 @@ def peer_rows(peer, name, what, line, repeats, whole, torque=None, few=None):
 
 def own_row(half, way, words, example=None, form="json"):
     """halfshaft's row: the command line as users run it, the analysis by itself by the example."""
-    out = half.work / f"{words[0]}.{form}"
+    out = half.work / f"{way.replace(', ', '-').replace(' ', '-')}.{form}"
     row = Row("halfshaft", way, lambda: (half.asked([*words, "--out", out]).seconds, out))
     return by_itself(row, lambda: half.seconds(example)) if example else row
 
@@ -96,8 +97,11 @@ def forced(half, peers, count, points, repeats, damping):
     line, torque = uniform.line(count, damping), uniform.excitation(uniform.speeds(points))
     model = models.written(half.work, f"forced-{count}-{damping}", f"Uniform chain of {count}", line, torque)
     words = ["forced", model, "--frequency", f"{uniform.SLOWEST!r}..{uniform.FASTEST!r}", "--points", points]
-    rows = [own_row(half, "forced", words, ["forced", count, repeats] if damping == "shafts" else None),
-            own_row(half, "forced, Parquet file", words, form="parquet")]
+    every = [*words, *every_shaft(line)]
+    # The first is what the peers write: moduli of all orders of all shafts.
+    rows = [own_row(half, "forced, all orders", every, ["forced", count, repeats] if damping == "shafts" else None),
+            own_row(half, "forced, all orders, Parquet", every, form="parquet"),
+            own_row(half, "forced, sums of the orders", words)]
     ways = {"opentorsion": ({"vibratory_torque": ""}, 50), "ross": ({"run_forced_response": ""}, 10),
             "SciPy": ({"elimination": ""}, None)}
     for name, (whole, few) in ways.items():

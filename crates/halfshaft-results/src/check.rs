@@ -97,6 +97,94 @@ pub struct CheckedShaft {
     pub damping: f64,
     /// Terms beyond the linear one that are not zero, and what else makes the law nonlinear.
     pub nonlinear_terms: Vec<NonlinearTerm>,
+    /// Loss factor of hysteretic damping; 0 for none.
+    #[serde(default, skip_serializing_if = "is_zero", deserialize_with = "crate::number::read")]
+    pub loss_factor: f64,
+    /// The bar that it is, where it is given by its dimensions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bar: Option<CheckedBar>,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// A round bar.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedBar {
+    /// Length, m.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub length: f64,
+    /// Outer diameter, m.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub outer_diameter: f64,
+    /// Inner diameter, m.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub inner_diameter: f64,
+    /// Shear modulus, Pa.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub shear_modulus: f64,
+    /// Density, kg/m³.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub density: f64,
+    /// Pieces into which it is cut.
+    pub elements: usize,
+    /// Inertia of the whole bar, kg·m²: half of it stands with each of its ends.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub inertia: f64,
+}
+
+/// An inertia of the mass-elastic sheet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SheetInertia {
+    /// Its node.
+    pub name: String,
+    /// kg·m².
+    #[serde(deserialize_with = "crate::number::read")]
+    pub inertia: f64,
+    /// Its speed over that of the reference node.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub ratio: f64,
+    /// Inertia times the square of the ratio, kg·m².
+    #[serde(deserialize_with = "crate::number::read")]
+    pub reduced: f64,
+}
+
+/// A connection of the mass-elastic sheet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SheetConnection {
+    /// Shaft, mesh or damper.
+    pub name: String,
+    /// Node at one end.
+    pub from: String,
+    /// Node at the other.
+    pub to: String,
+    /// Stiffness at zero twist, N·m/rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub stiffness: f64,
+    /// Damping, N·m·s/rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub damping: f64,
+    /// Its speed over that of the reference node.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub ratio: f64,
+    /// Stiffness times the square of the ratio, N·m/rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub reduced_stiffness: f64,
+    /// Damping times the square of the ratio, N·m·s/rad.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub reduced_damping: f64,
+}
+
+/// Inertias and stiffnesses of the line as they are and reduced to the speed of one node.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MassElasticSheet {
+    /// The node to whose speed everything is reduced.
+    pub reference: String,
+    /// Inertias.
+    pub inertias: Vec<SheetInertia>,
+    /// Shafts, meshes and dampers.
+    pub connections: Vec<SheetConnection>,
 }
 
 /// A torque.
@@ -178,6 +266,9 @@ pub struct CheckResult {
     pub gears: Vec<CheckedGear>,
     /// Shafts.
     pub shafts: Vec<CheckedShaft>,
-    /// Torques.
+    /// Torques, those of engines last.
     pub torques: Vec<CheckedTorque>,
+    /// Inertias and stiffnesses reduced to one speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_elastic: Option<MassElasticSheet>,
 }

@@ -1,8 +1,9 @@
 //! The line as the program understands it.
 
 mod shaft;
+mod sheet;
 
-use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_dynamics::{EquationsOfMotion, NodePlace, Source};
 use halfshaft_model::Driveline;
 use halfshaft_model::elements::{MeanTorque, Pulse, PulseShape};
 use halfshaft_model::question::Question;
@@ -18,12 +19,17 @@ use crate::header::header;
 
 /// Answers `check`.
 pub(crate) fn solve(line: &Driveline) -> Result<CheckResult, AnalysisError> {
-    let equations = EquationsOfMotion::new(line)?;
+    let freedom = EquationsOfMotion::new(line)?.groups();
+    // Drawings and tables have each bar in one piece.
+    let whole = &*line.with_whole_bars();
+    let equations = EquationsOfMotion::new(whole)?;
+    let listed = line.torques().len();
     Ok(CheckResult {
         header: header(line, &Question::Check),
         description: line.description().to_owned(),
         grounded: equations.network.grounded,
-        degrees_of_freedom: equations.groups(),
+        degrees_of_freedom: freedom,
+        mass_elastic: Some(sheet::sheet(line, whole, &equations)),
         reduced_inertias: reduced(line, &equations),
         gears: line
             .gears()
@@ -34,21 +40,30 @@ pub(crate) fn solve(line: &Driveline) -> Result<CheckResult, AnalysisError> {
                 output: gear.output.clone(),
                 ratio: gear.ratio,
                 ratios: gear.ratios.clone(),
-                mesh: gear.stiffness_nm_per_rad.map(|stiffness| CheckedMesh {
+                mesh: gear.mesh_at_output().map(|[stiffness, damping, clearance]| CheckedMesh {
                     stiffness,
-                    damping: gear.damping_nm_s_per_rad.unwrap_or(0.0),
-                    clearance: gear.clearance_rad.unwrap_or(0.0),
+                    damping,
+                    clearance,
                 }),
             })
             .collect(),
         // Connections begin with the shafts.
-        shafts: line
+        shafts: whole
             .shafts()
             .iter()
             .zip(&equations.connections)
-            .map(|(element, connection)| shaft(element, connection))
+            .enumerate()
+            .map(|(index, (element, connection))| {
+                // The line's own shafts come first, and those of dampers after them.
+                shaft(element, line.shafts().get(index), connection)
+            })
             .collect(),
-        torques: line.torques().iter().map(torque).collect(),
+        torques: line
+            .torques()
+            .iter()
+            .map(torque)
+            .chain(equations.excitation.sources.iter().skip(listed).map(|s| of_engine(&equations, s)))
+            .collect(),
     })
 }
 
@@ -73,6 +88,31 @@ fn reduced(line: &Driveline, equations: &EquationsOfMotion) -> Vec<ReducedInerti
             .collect(),
     };
     equations.inertia.iter().enumerate().map(group).collect()
+}
+
+/// A torque of an engine.
+fn of_engine(equations: &EquationsOfMotion, source: &Source) -> CheckedTorque {
+    // The node is the one that turns with the source.
+    let fits = |node: &&NodePlace| node.group == source.group && node.ratio == source.ratio;
+    CheckedTorque {
+        name: source.name.clone(),
+        on: equations.nodes.iter().find(fits).map(|node| node.name.clone()).unwrap_or_default(),
+        mean: Some(source.mean),
+        harmonics: source
+            .harmonics
+            .iter()
+            .map(|harmonic| CheckedHarmonic {
+                order: harmonic.order,
+                amplitude: harmonic.amplitude_nm,
+                phase: harmonic.phase_rad,
+            })
+            .collect(),
+        pulse: None,
+        growth: (source.speed_power != 0.0).then_some(CheckedGrowth {
+            power: source.speed_power,
+            reference_speed: source.reference_speed,
+        }),
+    }
 }
 
 fn torque(torque: &halfshaft_model::elements::Torque) -> CheckedTorque {

@@ -1,11 +1,15 @@
 //! A shaft in the words of `check`.
 
 use halfshaft_dynamics::{Connection, TorqueLaw};
-use halfshaft_model::elements::{Shaft, Stage};
-use halfshaft_results::{CheckedShaft, NonlinearTerm};
+use halfshaft_model::elements::{Dimensions, Shaft, Stage};
+use halfshaft_results::{CheckedBar, CheckedShaft, NonlinearTerm};
 
-/// What the program understands by a shaft.
-pub(super) fn shaft(shaft: &Shaft, connection: &Connection) -> CheckedShaft {
+/// What the program understands by a shaft, and as what the file has it.
+pub(super) fn shaft(
+    shaft: &Shaft,
+    written: Option<&Shaft>,
+    connection: &Connection,
+) -> CheckedShaft {
     // Stages and tables have no one stiffness.
     let stiffness = match &connection.law {
         TorqueLaw::PiecewiseLinear(_) | TorqueLaw::Table(_) => connection.law.stiffness(0.0),
@@ -25,6 +29,20 @@ pub(super) fn shaft(shaft: &Shaft, connection: &Connection) -> CheckedShaft {
         stiffness,
         damping: shaft.damping_nm_s_per_rad,
         nonlinear_terms: terms,
+        loss_factor: connection.loss_factor,
+        bar: written.and_then(|written| written.dimensions.as_ref()).map(bar),
+    }
+}
+
+fn bar(bar: &Dimensions) -> CheckedBar {
+    CheckedBar {
+        length: bar.length_m,
+        outer_diameter: bar.outer_diameter_m,
+        inner_diameter: bar.inner_diameter_m,
+        shear_modulus: bar.shear_modulus_pa,
+        density: bar.density_kg_m3,
+        elements: bar.pieces(),
+        inertia: bar.inertia(),
     }
 }
 

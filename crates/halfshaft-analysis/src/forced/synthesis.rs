@@ -90,8 +90,7 @@ impl Synthesis {
     /// The highest and lowest sample of each channel.
     fn sample(&mut self, multiples: &[usize], re: &[Vec<f64>], im: &[Vec<f64>]) {
         let count = self.circle.len();
-        let none =
-            Extreme { high: f64::NEG_INFINITY, high_at: 0, low: f64::INFINITY, low_at: 0 };
+        let none = Extreme { high: f64::NEG_INFINITY, high_at: 0, low: f64::INFINITY, low_at: 0 };
         self.high.fill(none);
         for n in 0..count {
             self.values.fill(0.0);

@@ -12,6 +12,11 @@ use crate::error::AnalysisError;
 use crate::modal::sparse::terms;
 use crate::modal::vibration::Vibration;
 
+/// Steps of iterative refinement at most.
+const MOST_REFINEMENTS: usize = 6;
+/// Change by a step that ends it.
+const SETTLED: f64 = 1e-15;
+
 /// A term of the dynamic stiffness.
 struct DynamicTerm {
     term: PencilTerm,
@@ -56,13 +61,52 @@ impl LinearLine {
             return;
         }
         self.system.clear();
-        for DynamicTerm { term, damping, loss_factor } in &self.terms {
-            let re = term.stiffness - omega * omega * term.inertia;
-            let im = omega * damping + loss_factor * term.stiffness;
-            add_term(&mut self.system, term, Complex::new(re, im));
+        for term in &self.terms {
+            add_term(&mut self.system, &term.term, term.value(omega));
         }
-        self.system.factor();
+        let weak = self.system.factor_strengthened();
+        let torques = if weak { motion.clone() } else { Vec::new() };
         self.system.solve(motion, &mut self.work);
+        if weak {
+            self.refine(omega, &torques, motion);
+        }
+    }
+
+    /// Iterative refinement, until a step changes no digit any more.
+    fn refine(&mut self, omega: f64, torques: &[Complex], motion: &mut [Complex]) {
+        for _ in 0..MOST_REFINEMENTS {
+            let mut rest = torques.to_vec();
+            for term in &self.terms {
+                let (node, entry) = term.term.first;
+                let second = term.term.second;
+                let other = second.map_or(Complex::default(), |(node, e)| motion[node].scaled(e));
+                let torque = term.value(omega) * (motion[node].scaled(entry) + other);
+                rest[node] = rest[node] - torque.scaled(entry);
+                if let Some((node, entry)) = second {
+                    rest[node] = rest[node] - torque.scaled(entry);
+                }
+            }
+            self.system.solve(&mut rest, &mut self.work);
+            let largest = |values: &[Complex]| {
+                values.iter().map(|value| value.re.abs().max(value.im.abs())).fold(0.0, f64::max)
+            };
+            motion.iter_mut().zip(&rest).for_each(|(q, step)| *q = *q + *step);
+            let (step, size) = (largest(&rest), largest(motion));
+            if step <= SETTLED * size || !size.is_finite() {
+                return;
+            }
+        }
+    }
+}
+
+impl DynamicTerm {
+    /// `k (1 + i η) + i ω c - ω² m`.
+    fn value(&self, omega: f64) -> Complex {
+        let Self { term, damping, loss_factor } = self;
+        Complex::new(
+            term.stiffness - omega * omega * term.inertia,
+            omega * damping + loss_factor * term.stiffness,
+        )
     }
 }
 

@@ -6,8 +6,9 @@ use std::collections::HashMap;
 use super::Driveline;
 use crate::elements::{Dimensions, Inertia, Shaft};
 
-/// The line with bars cut into pieces and dampers as rings; itself where it has none of them.
-pub(super) fn of(line: &Driveline) -> Cow<'_, Driveline> {
+/// The line with bars in so many pieces, at most, and dampers as rings; itself where it has none of
+/// them.
+pub(super) fn of(line: &Driveline, most_pieces: usize) -> Cow<'_, Driveline> {
     let bars = line.shafts.iter().any(|shaft| shaft.dimensions.is_some());
     if !bars && line.dampers.is_empty() {
         return Cow::Borrowed(line);
@@ -21,7 +22,8 @@ pub(super) fn of(line: &Driveline) -> Cow<'_, Driveline> {
     let mut further = Vec::new();
     for shaft in &mut plain.shafts {
         if let Some(bar) = shaft.dimensions.take() {
-            let mut pieces = cut(shaft, &bar, &mut nodes).into_iter();
+            let count = bar.pieces().min(most_pieces);
+            let mut pieces = cut(shaft, &bar, count, &mut nodes).into_iter();
             if let Some(first) = pieces.next() {
                 *shaft = first;
             }
@@ -62,8 +64,7 @@ impl Nodes {
 }
 
 /// The pieces of a bar: `N` in a row, each `N` times as stiff and as strongly damped as the whole.
-fn cut(shaft: &Shaft, bar: &Dimensions, nodes: &mut Nodes) -> Vec<Shaft> {
-    let count = bar.pieces();
+fn cut(shaft: &Shaft, bar: &Dimensions, count: usize, nodes: &mut Nodes) -> Vec<Shaft> {
     #[expect(clippy::cast_precision_loss, reason = "bounded by the file format")]
     let pieces = count as f64;
     let inertia = bar.inertia() / pieces;

@@ -144,7 +144,12 @@ impl Driveline {
     /// bar that has inertia takes half of it to each end, and has what consistent inertia differs by
     /// as [`Shaft::inertance_kg_m2`].
     pub fn expanded(&self) -> Cow<'_, Self> {
-        expanded::of(self)
+        expanded::of(self, usize::MAX)
+    }
+
+    /// The same with every bar in one piece, for drawings and tables.
+    pub fn with_whole_bars(&self) -> Cow<'_, Self> {
+        expanded::of(self, 1)
     }
 
     /// Gears with an elastic mesh, in file order.

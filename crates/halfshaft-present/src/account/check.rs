@@ -1,7 +1,8 @@
 //! What is told of a line.
 
 use halfshaft_results::{
-    CheckResult, CheckedMesh, CheckedPulse, CheckedShaft, CheckedTorque, ReducedInertia,
+    CheckResult, CheckedHarmonic, CheckedMesh, CheckedPulse, CheckedShaft, CheckedTorque, MassElasticSheet,
+    ReducedInertia,
 };
 
 use super::{Account, Grid, chain};
@@ -28,7 +29,52 @@ pub(crate) fn elements(check: &CheckResult) -> Account {
     account.grid(torques(check));
     account.grid(gears(check));
     account.grid(inertias(check));
+    account.grid(bars(check));
+    if let Some(sheet) = &check.mass_elastic {
+        account.grid(sheet_inertias(sheet));
+        account.grid(sheet_connections(sheet));
+    }
     account
+}
+
+/// Bars by their dimensions.
+fn bars(check: &CheckResult) -> Grid {
+    let bars = || check.shafts.iter().filter_map(|shaft| Some((shaft, shaft.bar.as_ref()?)));
+    Grid::new("Bars")
+        .words("name", bars().map(|(shaft, _)| &shaft.name))
+        .numbers("length", "m", 5, bars().map(|(_, bar)| Some(bar.length)))
+        .numbers("outer diameter", "mm", 5, bars().map(|(_, bar)| Some(1e3 * bar.outer_diameter)))
+        .numbers("inner diameter", "mm", 5, bars().map(|(_, bar)| Some(1e3 * bar.inner_diameter)))
+        .numbers("shear modulus", "GPa", 4, bars().map(|(_, bar)| Some(1e-9 * bar.shear_modulus)))
+        .numbers("density", "kg/m³", 5, bars().map(|(_, bar)| Some(bar.density)))
+        .words("pieces", bars().map(|(_, bar)| bar.elements.to_string()))
+        .numbers("inertia", "kg·m²", 5, bars().map(|(_, bar)| Some(bar.inertia)))
+        .without_empty_columns()
+}
+
+/// Rows of the sheet at most.
+const SHEET_ROWS: usize = 200;
+
+fn sheet_inertias(sheet: &MassElasticSheet) -> Grid {
+    let rows = || sheet.inertias.iter().take(SHEET_ROWS);
+    Grid::new(format!("Mass-elastic sheet: inertias, reduced to the speed of {}", plain(&sheet.reference)))
+        .words("inertia", rows().map(|row| &row.name))
+        .numbers("J", "kg·m²", 6, rows().map(|row| Some(row.inertia)))
+        .numbers("speed ratio", "", 6, rows().map(|row| Some(row.ratio)))
+        .numbers("J reduced", "kg·m²", 6, rows().map(|row| Some(row.reduced)))
+}
+
+fn sheet_connections(sheet: &MassElasticSheet) -> Grid {
+    let rows = || sheet.connections.iter().take(SHEET_ROWS);
+    Grid::new("Mass-elastic sheet: connections")
+        .words("connection", rows().map(|row| &row.name))
+        .words("from", rows().map(|row| &row.from))
+        .words("to", rows().map(|row| &row.to))
+        .numbers("k", "N·m/rad", 6, rows().map(|row| Some(row.stiffness)))
+        .numbers("c", "N·m·s/rad", 5, rows().map(|row| Some(row.damping)))
+        .numbers("speed ratio", "", 6, rows().map(|row| Some(row.ratio)))
+        .numbers("k reduced", "N·m/rad", 6, rows().map(|row| Some(row.reduced_stiffness)))
+        .numbers("c reduced", "N·m·s/rad", 5, rows().map(|row| Some(row.reduced_damping)))
 }
 
 /// How many of what there is.
@@ -156,6 +202,7 @@ fn shafts(check: &CheckResult) -> Grid {
         .words("to", shafts.iter().map(|shaft| &shaft.to))
         .numbers("stiffness", "N·m/rad", 6, shafts.iter().map(|shaft| Some(shaft.stiffness)))
         .numbers("damping", "N·m·s/rad", 5, shafts.iter().map(|shaft| Some(shaft.damping)))
+        .numbers("loss factor", "", 4, shafts.iter().map(|shaft| Some(shaft.loss_factor).filter(|f| *f > 0.0)))
         .words("nonlinear terms", shafts.iter().map(terms))
         .without_empty_columns()
 }
@@ -191,16 +238,28 @@ fn torques(check: &CheckResult) -> Grid {
         .without_empty_columns()
 }
 
+/// Orders of a torque that are told one by one.
+const MOST_ORDERS: usize = 4;
+
 /// "40 N·m at order 2", several of them in a list.
 pub(crate) fn oscillation(torque: &CheckedTorque) -> String {
-    let parts: Vec<String> = torque
-        .harmonics
-        .iter()
-        .map(|harmonic| {
-            let amplitude = quantity(harmonic.amplitude, 6, "N·m");
-            format!("{amplitude} at order {}", number(harmonic.order, 4))
-        })
-        .collect();
+    // Of the orders of an engine the strongest tell enough.
+    let mut strongest: Vec<_> = torque.harmonics.iter().collect();
+    let all = strongest.len();
+    if all > MOST_ORDERS {
+        strongest.sort_by(|a, b| b.amplitude.abs().total_cmp(&a.amplitude.abs()));
+        strongest.truncate(MOST_ORDERS);
+        strongest.sort_by(|a, b| a.order.total_cmp(&b.order));
+    }
+    let digits = if all > MOST_ORDERS { 4 } else { 6 };
+    let part = |harmonic: &&CheckedHarmonic| {
+        let amplitude = quantity(harmonic.amplitude, digits, "N·m");
+        format!("{amplitude} at order {}", number(harmonic.order, 4))
+    };
+    let mut parts: Vec<String> = strongest.iter().map(part).collect();
+    if all > MOST_ORDERS {
+        parts.push(format!("{} more orders", all - MOST_ORDERS));
+    }
     let told = list(&parts);
     match &torque.growth {
         Some(growth) if !parts.is_empty() => format!(

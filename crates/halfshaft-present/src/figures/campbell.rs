@@ -41,8 +41,8 @@ fn figure(result: &CampbellResult, gear: &CampbellGear, index: usize) -> Figure 
         );
         panel = panel.with(curve.with_line(Line::Dashed).with_width(0.8).unlisted());
         let text = number(*order, 4);
-        panel =
-            panel.with(Label { anchor: Anchor::Left, ..Label::new(end, end * order * HERTZ, text) });
+        panel = panel
+            .with(Label { anchor: Anchor::Left, ..Label::new(end, end * order * HERTZ, text) });
     }
     for (mode, frequency) in gear.frequency.iter().enumerate() {
         let height = frequency * HERTZ;

@@ -64,8 +64,11 @@ pub(crate) const LEGEND: &str = "Plates are inertias, taller for larger ones (by
 ///         stiffness: 40.0,
 ///         damping: 0.0,
 ///         nonlinear_terms: Vec::new(),
+///         loss_factor: 0.0,
+///         bar: None,
 ///     }],
 ///     torques: Vec::new(),
+///     mass_elastic: None,
 /// };
 /// // The space before a unit does not break.
 /// let drawing = sketch(&line).replace('\u{a0}', " ");
