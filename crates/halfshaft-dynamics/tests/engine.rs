@@ -111,7 +111,8 @@ fn gas_torque_is_pressure_times_area_times_lever() {
         .map(|alpha| (alpha, (wave(&orders, alpha) - 3e4) * area * slope(alpha)))
         .collect();
     for found in cylinder_orders(&line.engines()[0]).gas {
-        let term = |(alpha, torque): &(f64, f64)| Complex::from_polar(*torque, -found.order * alpha);
+        let term =
+            |(alpha, torque): &(f64, f64)| Complex::from_polar(*torque, -found.order * alpha);
         let sum = torque.iter().map(term).fold(Complex::default(), |sum, term| sum + term);
         let share = if found.order == 0.0 { 1.0 } else { 2.0 } / f64::from(count);
         let error = (found.value - sum.scaled(share)).modulus();
@@ -156,20 +157,23 @@ fn cylinders_add_up_with_their_firing_angles() {
     let speed: f64 = 150.0;
     for angle in [0.0, 0.4, 2.9, 7.7] {
         let of = |list: &[CylinderOrder], alpha: f64| -> f64 {
-            list.iter().map(|order| (order.value * Complex::from_polar(1.0, order.order * alpha)).re).sum()
+            list.iter()
+                .map(|order| (order.value * Complex::from_polar(1.0, order.order * alpha)).re)
+                .sum()
         };
         let direct: f64 = engine
             .firing_rad
             .iter()
-            .map(|firing| of(&one.gas, angle - firing) + speed * speed * of(&one.mass, angle - firing))
+            .map(|firing| {
+                of(&one.gas, angle - firing) + speed * speed * of(&one.mass, angle - firing)
+            })
             .sum();
         let sources = equations.excitation.sources.iter();
         let told: f64 = sources
             .map(|source| {
                 let harmonics = source.harmonics.iter();
-                let sum: f64 = harmonics
-                    .map(|h| h.amplitude_nm * (h.order * angle + h.phase_rad).cos())
-                    .sum();
+                let sum: f64 =
+                    harmonics.map(|h| h.amplitude_nm * (h.order * angle + h.phase_rad).cos()).sum();
                 source.mean + source.growth(speed) * sum
             })
             .sum();

@@ -37,9 +37,9 @@ pub use basins::{Attractor, BasinGrid, BasinsResult, ShockSearch, SmallestShock}
 pub use bifurcation::{BifurcationResult, StrobedBranch, SweepJump};
 pub use campbell::{CampbellGear, CampbellResult, CriticalSpeed};
 pub use check::{
-    CheckResult, CheckedBar, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
-    CheckedShaft, CheckedTorque, MassElasticSheet, Member, NonlinearTerm, ReducedInertia,
-    SheetConnection, SheetInertia,
+    CheckResult, CheckedBar, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh,
+    CheckedPulse, CheckedShaft, CheckedTorque, MassElasticSheet, Member, NonlinearTerm,
+    ReducedInertia, SheetConnection, SheetInertia,
 };
 pub use equilibrium::{
     Equilibrium, GearState, Limit, Running, RunningKind, ShaftCapacity, SharedLoad, StaticResult,

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    BasinsResult, CheckResult, FoldsResult, Header, HistoryResult, ModesResult, ResonanceResult,
-    StaticResult,
+    BasinsResult, CampbellResult, CheckResult, FoldsResult, ForcedResult, Header, HistoryResult,
+    ModesResult, ResonanceResult, StaticResult,
 };
 
 /// A section that the report cannot have, and why.
@@ -49,6 +49,12 @@ pub struct ReportResult {
     pub statics: Option<StaticResult>,
     /// Modes about the state of rest.
     pub modes: Option<ModesResult>,
+    /// Critical speeds in the gear of the model.
+    #[serde(default)]
+    pub campbell: Option<CampbellResult>,
+    /// Linear vibration over the speed in the gear of the model.
+    #[serde(default)]
+    pub forced: Option<ForcedResult>,
     /// Shock by all methods.
     pub shock: Option<HistoryResult>,
     /// Resonance by harmonic balance, checked by integration.

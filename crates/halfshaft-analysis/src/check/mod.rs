@@ -62,7 +62,9 @@ pub(crate) fn solve(line: &Driveline) -> Result<CheckResult, AnalysisError> {
             .torques()
             .iter()
             .map(torque)
-            .chain(equations.excitation.sources.iter().skip(listed).map(|s| of_engine(&equations, s)))
+            .chain(
+                equations.excitation.sources.iter().skip(listed).map(|s| of_engine(&equations, s)),
+            )
             .collect(),
     })
 }

@@ -12,9 +12,10 @@ pub(super) fn sheet(
     equations: &EquationsOfMotion,
 ) -> MassElasticSheet {
     let speeds = equations.network.rigid_speeds(equations.groups());
-    let loud = line.torques().iter().filter(|torque| {
-        torque.harmonics.iter().any(|harmonic| harmonic.amplitude_nm != 0.0)
-    });
+    let loud = line
+        .torques()
+        .iter()
+        .filter(|torque| torque.harmonics.iter().any(|harmonic| harmonic.amplitude_nm != 0.0));
     let driven = loud.map(|torque| torque.on.as_str());
     let cranks = line.engines().iter().map(|engine| engine.node(0));
     let reference = driven.chain(cranks).find_map(|name| equations.node(name)).unwrap_or(0);

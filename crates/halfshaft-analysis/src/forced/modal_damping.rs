@@ -61,9 +61,11 @@ impl ModalResponse {
         })
     }
 
-    pub(super) fn solve(&mut self, omega: f64, motion: &mut Vec<Complex>) {
+    pub(super) fn solve(&self, omega: f64, motion: &mut [Complex]) {
+        let loaded: Vec<(usize, Complex)> =
+            motion.iter().copied().enumerate().filter(|(_, t)| *t != Complex::default()).collect();
         let force = |shape: &Vec<f64>| {
-            let terms = shape.iter().zip(motion.iter()).map(|(part, torque)| torque.scaled(*part));
+            let terms = loaded.iter().map(|(group, torque)| torque.scaled(shape[*group]));
             terms.fold(Complex::default(), |sum, term| sum + term)
         };
         let forces: Vec<Complex> = self.shapes.iter().map(force).collect();
@@ -77,9 +79,16 @@ impl ModalResponse {
             None => forces.iter().zip(&own).map(|(force, own)| *force / *own).collect(),
         };
         let extra = self.massless.as_ref().map(|(system, nodes)| statics(system, nodes, motion));
-        motion.fill(Complex::default());
+        // Real and imaginary parts apart, so that both sums run in vector registers.
+        let (mut re, mut im) = (vec![0.0; motion.len()], vec![0.0; motion.len()]);
         for (shape, part) in self.shapes.iter().zip(&parts) {
-            motion.iter_mut().zip(shape).for_each(|(q, s)| *q = *q + part.scaled(*s));
+            for ((re, im), shape) in re.iter_mut().zip(&mut im).zip(shape) {
+                *re += part.re * shape;
+                *im += part.im * shape;
+            }
+        }
+        for ((q, re), im) in motion.iter_mut().zip(re).zip(im) {
+            *q = Complex::new(re, im);
         }
         for (node, value) in extra.into_iter().flatten() {
             motion[node] = motion[node] + value;

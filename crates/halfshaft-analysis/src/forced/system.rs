@@ -55,8 +55,8 @@ impl LinearLine {
 
     /// Motion of the groups at circular frequency `omega` (rad/s), complex amplitudes in rad; the
     /// torques on the groups (N·m) on entry.
-    pub(super) fn solve(&mut self, omega: f64, motion: &mut Vec<Complex>) {
-        if let Some(modal) = &mut self.modal {
+    pub(super) fn solve(&mut self, omega: f64, motion: &mut [Complex]) {
+        if let Some(modal) = &self.modal {
             modal.solve(omega, motion);
             return;
         }
@@ -65,7 +65,7 @@ impl LinearLine {
             add_term(&mut self.system, &term.term, term.value(omega));
         }
         let weak = self.system.factor_strengthened();
-        let torques = if weak { motion.clone() } else { Vec::new() };
+        let torques = if weak { motion.to_vec() } else { Vec::new() };
         self.system.solve(motion, &mut self.work);
         if weak {
             self.refine(omega, &torques, motion);

@@ -1,8 +1,8 @@
 //! What is told of a line.
 
 use halfshaft_results::{
-    CheckResult, CheckedHarmonic, CheckedMesh, CheckedPulse, CheckedShaft, CheckedTorque, MassElasticSheet,
-    ReducedInertia,
+    CheckResult, CheckedHarmonic, CheckedMesh, CheckedPulse, CheckedShaft, CheckedTorque,
+    MassElasticSheet, ReducedInertia,
 };
 
 use super::{Account, Grid, chain};
@@ -57,11 +57,14 @@ const SHEET_ROWS: usize = 200;
 
 fn sheet_inertias(sheet: &MassElasticSheet) -> Grid {
     let rows = || sheet.inertias.iter().take(SHEET_ROWS);
-    Grid::new(format!("Mass-elastic sheet: inertias, reduced to the speed of {}", plain(&sheet.reference)))
-        .words("inertia", rows().map(|row| &row.name))
-        .numbers("J", "kg·m²", 6, rows().map(|row| Some(row.inertia)))
-        .numbers("speed ratio", "", 6, rows().map(|row| Some(row.ratio)))
-        .numbers("J reduced", "kg·m²", 6, rows().map(|row| Some(row.reduced)))
+    Grid::new(format!(
+        "Mass-elastic sheet: inertias, reduced to the speed of {}",
+        plain(&sheet.reference)
+    ))
+    .words("inertia", rows().map(|row| &row.name))
+    .numbers("J", "kg·m²", 6, rows().map(|row| Some(row.inertia)))
+    .numbers("speed ratio", "", 6, rows().map(|row| Some(row.ratio)))
+    .numbers("J reduced", "kg·m²", 6, rows().map(|row| Some(row.reduced)))
 }
 
 fn sheet_connections(sheet: &MassElasticSheet) -> Grid {
@@ -202,7 +205,12 @@ fn shafts(check: &CheckResult) -> Grid {
         .words("to", shafts.iter().map(|shaft| &shaft.to))
         .numbers("stiffness", "N·m/rad", 6, shafts.iter().map(|shaft| Some(shaft.stiffness)))
         .numbers("damping", "N·m·s/rad", 5, shafts.iter().map(|shaft| Some(shaft.damping)))
-        .numbers("loss factor", "", 4, shafts.iter().map(|shaft| Some(shaft.loss_factor).filter(|f| *f > 0.0)))
+        .numbers(
+            "loss factor",
+            "",
+            4,
+            shafts.iter().map(|shaft| Some(shaft.loss_factor).filter(|f| *f > 0.0)),
+        )
         .words("nonlinear terms", shafts.iter().map(terms))
         .without_empty_columns()
 }

@@ -11,6 +11,8 @@ pub(crate) fn title(analysis: &str) -> String {
         "check" => "The line",
         "static" => "Static wind-up and torque capacity",
         "modes" => "Modes of vibration",
+        "campbell" => "Critical speeds",
+        "forced" => "Forced vibration, linear",
         "simulate" => "Simulation",
         "shock" => "Shock",
         "resonance" => "Resonance",

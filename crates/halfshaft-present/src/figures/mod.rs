@@ -77,6 +77,8 @@ fn of_report(report: &ReportResult) -> Vec<Figure> {
     let mut figures = Vec::new();
     figures.extend(report.statics.iter().flat_map(statics::figures));
     figures.extend(report.modes.iter().flat_map(modes::figures));
+    figures.extend(report.campbell.iter().flat_map(campbell::figures));
+    figures.extend(report.forced.iter().flat_map(forced::figures));
     if let Some(shock) = &report.shock {
         figures.extend(history::figures(shock));
         figures.extend(methods::figure(shock));

@@ -5,6 +5,7 @@ use halfshaft_results::{ReportResult, StaticResult};
 use crate::account::statics;
 use crate::reading::{Method, Reading};
 
+mod critical;
 mod jumps;
 mod methods;
 mod periodic;
@@ -85,6 +86,7 @@ pub(crate) fn of(report: &ReportResult) -> Vec<Finding> {
         found.extend(standing::gears(statics));
     }
     found.extend(stability::stability(report));
+    found.extend(critical::critical(report));
     found.extend(shock::shock(report));
     found.extend(vibration::vibration(report));
     found.extend(jumps::of(report));

@@ -9,7 +9,7 @@ use super::figure::{Figures, figure, still};
 use super::shell::Sheet;
 use super::single::{basis, warnings};
 use crate::account::{
-    Account, basins, check, folds, head, levels, modes, resonance, shock, statics,
+    Account, basins, campbell, check, folds, forced, head, levels, modes, resonance, shock, statics,
 };
 use crate::findings::{self, COMFORTABLE, Finding, Standing};
 use crate::words::{bound, capital, number, plain};
@@ -30,6 +30,8 @@ pub(super) fn sheet(answer: &Answer, report: &ReportResult) -> Sheet {
     };
     add("static", report.statics.as_ref().map(statics::account));
     add("modes", report.modes.as_ref().map(modes::account));
+    add("campbell", report.campbell.as_ref().map(campbell::account));
+    add("forced", report.forced.as_ref().map(forced::account));
     add("shock", report.shock.as_ref().map(shock::account));
     add("resonance", report.best_resonance().map(resonance::account));
     add("levels", Some(levels::account(report)).filter(|account| !account.blocks.is_empty()));

@@ -3,12 +3,13 @@
 use halfshaft_analysis::{AnalysisError, ask};
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{
-    BasinsQuestion, FoldsQuestion, ModesQuestion, ParameterRange, Question, ResonanceMethod,
-    ResonanceQuestion, ShockQuestion,
+    BasinsQuestion, CampbellQuestion, FoldsQuestion, ForcedQuestion, ModesQuestion, ParameterRange,
+    Question, ResonanceMethod, ResonanceQuestion, ShockQuestion,
 };
 use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
-    Answer, FoldsResult, Header, MissingSection, Reason, ReportResult, ResonanceResult, Termination,
+    Answer, FoldsResult, Gear, Header, MissingSection, Reason, ReportResult, ResonanceResult,
+    Termination,
 };
 
 mod coexisting;
@@ -29,6 +30,8 @@ pub fn report(line: &Driveline, observer: &dyn Observer) -> Result<ReportResult,
         check,
         statics: None,
         modes: None,
+        campbell: None,
+        forced: None,
         shock: None,
         resonance: None,
         first_harmonic: None,
@@ -51,9 +54,10 @@ struct Reporter<'r> {
     done: usize,
 }
 
-/// Sections that a report asks for, for its progress: statics, modes, shock, three methods of the
+/// Sections that a report asks for, for its progress: statics, modes, critical speeds, forced
+/// vibration, shock, three methods of the
 /// resonance, basins, and the fold planes by two methods.
-const SECTIONS: usize = 13;
+const SECTIONS: usize = 15;
 
 /// Twists and rates of the picture of basins: fine enough for the eye.
 const BASIN_SIDE: usize = 120;
@@ -73,6 +77,7 @@ impl Reporter<'_> {
         {
             self.report.modes = Some(modes);
         }
+        self.linear();
         let shock = ShockQuestion { compare: true, duration: 3.0, ..ShockQuestion::default() };
         if let Some(Answer::History(shock)) = self.ask("shock", &Question::Shock(shock)) {
             self.report.shock = Some(shock);
@@ -86,6 +91,46 @@ impl Reporter<'_> {
         self.folds();
         if !self.observer.cancelled() {
             self.report.levels = levels::levels(self.line, self.report, self.observer);
+        }
+    }
+
+    /// Critical speeds and linear vibration, where something of the model follows a speed.
+    fn linear(&mut self) {
+        let driven = self
+            .line
+            .torques()
+            .iter()
+            .any(|torque| torque.harmonics.iter().any(|harmonic| harmonic.amplitude_nm != 0.0));
+        let driven = driven || !self.line.engines().is_empty();
+        if !driven && self.line.whole().operating_rad_s.is_none() {
+            return;
+        }
+        let campbell = Question::Campbell(CampbellQuestion::default());
+        if let Some(Answer::Campbell(mut campbell)) = self.ask("campbell", &campbell) {
+            self.only_this_gear(&mut campbell.gears, |row| &row.gear);
+            self.report.campbell = Some(campbell);
+        }
+        if !driven {
+            return;
+        }
+        let forced = Question::Forced(ForcedQuestion::default());
+        if let Some(Answer::Forced(mut forced)) = self.ask("forced", &forced) {
+            self.only_this_gear(&mut forced.gears, |row| &row.gear);
+            self.report.forced = Some(forced);
+        }
+    }
+
+    /// A report is about the gear that the model is in; its modes are told gear by gear.
+    fn only_this_gear<T>(&self, rows: &mut Vec<T>, gear: fn(&T) -> &Gear) {
+        let engaged = |row: &T| {
+            let Gear { gearbox, ratio } = gear(row);
+            let named = |name: &String| self.line.gears().iter().find(|gear| gear.name == *name);
+            gearbox.as_ref().and_then(named).is_some_and(|gear| Some(gear.ratio) == *ratio)
+        };
+        let place = rows.iter().position(engaged).unwrap_or(0);
+        if place < rows.len() {
+            rows.swap(0, place);
+            rows.truncate(1);
         }
     }
 

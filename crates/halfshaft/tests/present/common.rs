@@ -95,6 +95,8 @@ pub fn static_report(line: &Driveline) -> Answer {
         check,
         statics: Some(statics),
         modes: None,
+        campbell: None,
+        forced: None,
         shock: None,
         resonance: None,
         first_harmonic: None,
