@@ -156,13 +156,16 @@ fn mass_torque(crank: &CrankGear, highest: f64) -> Vec<CylinderOrder> {
     coefficients.iter().enumerate().skip(1).map(order).collect()
 }
 
+/// Speed at which torques of oscillating masses are told, rad/s: 1000 rpm.
+pub(crate) const REFERENCE_SPEED: f64 = 1000.0 * PI / 30.0;
+
 /// A torque of an engine on one node.
 pub(crate) struct EngineTorque {
     pub(crate) name: String,
     pub(crate) node: String,
     pub(crate) mean: f64,
     pub(crate) harmonics: Vec<Harmonic>,
-    /// Whether it grows with the square of the speed, from 1 rad/s.
+    /// Whether it grows with the square of the speed; then it is told at [`REFERENCE_SPEED`].
     pub(crate) grows: bool,
 }
 
@@ -186,7 +189,9 @@ pub(crate) fn torques(engine: &Engine) -> Vec<EngineTorque> {
             if list.is_empty() {
                 continue;
             }
-            let (mean, harmonics) = together(list, &firing);
+            let (mean, mut harmonics) = together(list, &firing);
+            let growth = if grows { REFERENCE_SPEED.powi(2) } else { 1.0 };
+            harmonics.iter_mut().for_each(|harmonic| harmonic.amplitude_nm *= growth);
             let name = format!("{}: {what} on {node}", engine.name);
             torques.push(EngineTorque { name, node: node.to_owned(), mean, harmonics, grows });
         }

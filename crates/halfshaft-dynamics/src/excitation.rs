@@ -242,6 +242,6 @@ fn of_engine(torque: EngineTorque, topology: &Topology) -> Option<Source> {
         pulse: None,
         table: None,
         speed_power: if torque.grows { 2.0 } else { 0.0 },
-        reference_speed: 1.0,
+        reference_speed: engine::REFERENCE_SPEED,
     })
 }

@@ -103,9 +103,12 @@ pub(crate) fn default_range(
     vibration: &Vibration,
     orders: &[f64],
 ) -> Result<(f64, f64), AnalysisError> {
+    if let Some((from, to)) = line.whole().operating_rad_s {
+        return Ok((from / BEYOND, to * BEYOND));
+    }
     let modes = vibration.modes(SHOWN_MODES)?;
     let highest = modes.last().map_or(0.0, |mode| mode.eigenvalue.max(0.0).sqrt());
-    Ok(range(line.whole().operating_rad_s, orders, highest))
+    Ok(range(None, orders, highest))
 }
 
 /// The speeds that a diagram shows by itself: the operating range, or where the lowest order has met the

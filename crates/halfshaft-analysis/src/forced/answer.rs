@@ -63,7 +63,7 @@ fn in_gear(
         None => default_range(line, vibration, orders)?,
     };
     let speeds = speeds(vibration, question, orders, range)?;
-    let mut sweep = Sweep::new(vibration, orders, channels(vibration, question));
+    let mut sweep = Sweep::new(vibration, orders, channels(vibration, question, orders.len()));
     sweep.run(&speeds, observer)?;
     Ok(sweep.into_result(gear))
 }

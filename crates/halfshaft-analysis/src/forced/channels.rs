@@ -5,8 +5,10 @@ use halfshaft_numerics::Complex;
 
 use crate::modal::vibration::Vibration;
 
-/// Shafts and nodes of which a short line tells everything by itself.
-const SHORT: usize = 12;
+/// Inertias of which a short line tells by itself.
+const SHORT: usize = 16;
+/// Orders of all shafts together that are told one by one where nobody asks for some.
+const MOST_ORDERS: usize = 400;
 
 /// A quantity of a shaft or node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,10 +42,14 @@ impl Channel {
 }
 
 /// The channels that a question asks for.
-pub(super) fn channels(vibration: &Vibration, question: &ForcedQuestion) -> Vec<Channel> {
+pub(super) fn channels(
+    vibration: &Vibration,
+    question: &ForcedQuestion,
+    orders: usize,
+) -> Vec<Channel> {
     let equations = &vibration.equations;
     let mut channels = Vec::new();
-    let short = equations.connections.len() <= SHORT;
+    let short = equations.connections.len() * orders <= MOST_ORDERS;
     for (index, connection) in equations.connections.iter().enumerate() {
         let asked = question.shafts.as_ref().map(|shafts| shafts.contains(&connection.name));
         if asked == Some(false) {

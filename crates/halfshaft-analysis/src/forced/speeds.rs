@@ -13,6 +13,8 @@ const ABOUT: [f64; 17] =
     [-12.0, -6.0, -3.0, -2.0, -1.4, -1.0, -0.6, -0.3, 0.0, 0.3, 0.6, 1.0, 1.4, 2.0, 3.0, 6.0, 12.0];
 /// Least half width of a peak over its speed that is resolved: without damping there is none.
 const NARROWEST: f64 = 1e-5;
+/// Half width of a peak in steps of the spaced speeds that needs no further ones.
+const BROAD: f64 = 2.0;
 /// Modes whose resonances are looked at.
 const MODES: usize = 60;
 /// Part of the upper end from which a range begins by itself: at zero speed a free line runs away.
@@ -37,11 +39,15 @@ pub(super) fn speeds(
     let mut speeds = spaced(SPACED as usize);
     let modes = vibration.modes(MODES)?;
     let pairs = vibration.damped(&modes)?.elastic;
+    let step = (to - from) / f64::from(SPACED);
     for (mode, pair) in modes.iter().zip(pairs) {
         let width = damping_ratio(pair).abs().max(NARROWEST);
         let natural = mode.eigenvalue.max(0.0).sqrt();
         for order in orders {
             let critical = natural / order;
+            if critical * width > BROAD * step {
+                continue; // seen anyway
+            }
             // An undamped line has no value at the resonance itself.
             let about = ABOUT.iter().filter(|part| **part != 0.0 || width > NARROWEST);
             speeds.extend(about.map(|part| critical * (1.0 + part * width)));

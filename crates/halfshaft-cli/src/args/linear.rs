@@ -29,8 +29,8 @@ pub struct Campbell {
 pub struct Forced {
     #[command(flatten)]
     pub model: Model,
-    /// Range of the excitation speed Ω, e.g. 800rpm..6000rpm [default: beyond the operating range of the
-    /// model, or beyond the lowest resonances]
+    /// Range of the excitation speed Ω, e.g. 800rpm..6000rpm [default: the operating range of the
+    /// model and a quarter to either side, or beyond the lowest resonances]
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     pub frequency: Option<String>,
     /// Number of speeds, equally spaced [default: 400, and more about the resonances]
@@ -39,10 +39,10 @@ pub struct Forced {
     /// Orders that act, e.g. 0.5,1,2 [default: all of the model's torques]
     #[arg(long, value_name = "N,N,...", allow_hyphen_values = true)]
     pub orders: Option<String>,
-    /// Shafts to tell of, order by order too [default: all; each order of a line of up to 12 shafts]
+    /// Shafts to tell of, order by order too [default: all; with their orders up to 400 of them together]
     #[arg(long, value_name = "NAME,NAME,...")]
     pub shaft: Option<String>,
-    /// Nodes to tell of, order by order too [default: all of a line of up to 12 inertias]
+    /// Nodes to tell of, order by order too [default: all of a line of up to 16 inertias]
     #[arg(long, value_name = "NAME,NAME,...")]
     pub node: Option<String>,
 }

@@ -3,10 +3,10 @@
 use halfshaft_results::{CampbellGear, CampbellResult, CriticalSpeed, Gear};
 
 use super::{Account, Grid, Tone};
-use crate::words::{counted, frequency_words, number, percent, plain, quantity};
+use crate::words::{counted, number, percent, plain, quantity};
 
 /// Rows of a table at most.
-const MOST_ROWS: usize = 60;
+const MOST_ROWS: usize = 30;
 /// Distance from the operating range that is asked for in practice (classification societies ask for
 /// 10 to 20 %).
 const CLOSE: f64 = 0.2;
@@ -64,7 +64,7 @@ fn opening(result: &CampbellResult) -> Vec<String> {
     let all: Vec<&CriticalSpeed> = result.gears.iter().flat_map(|gear| &gear.critical).collect();
     let orders: Vec<String> =
         result.orders.iter().take(12).map(|order| number(*order, 4)).collect();
-    let more = if result.orders.len() > 12 { ", ..." } else { "" };
+    let more = if result.orders.len() > 12 { " and so on" } else { "" };
     let mut sentences = vec![format!(
         "{} between {} and {} rpm, orders {}{more}.",
         counted(all.len(), "critical speed", "critical speeds"),
@@ -88,11 +88,13 @@ fn opening(result: &CampbellResult) -> Vec<String> {
             percent(CLOSE, 2),
         ));
     }
-    let loudest = all.iter().filter_map(|speed| Some((speed, speed.torque?)));
+    let relevant = all.iter().filter(|speed| speed.margin.is_none_or(|margin| margin < CLOSE));
+    let loudest = relevant.filter_map(|speed| Some((speed, speed.torque?)));
     if let Some((speed, torque)) = loudest.max_by(|a, b| a.1.total_cmp(&b.1)) {
         let shaft = speed.shaft.as_deref().map_or_else(String::new, plain);
+        let there = if result.operating.is_some() { " there or near" } else { "" };
         sentences.push(format!(
-            "The strongest is order {} on mode {} at {} rpm: alone it loads the {shaft} with ± {}.",
+            "The strongest{there} is order {} on mode {} at {} rpm: alone it loads the {shaft} with ±{}.",
             number(speed.order, 4),
             speed.mode,
             number(speed.speed * RPM, 4),
@@ -116,17 +118,36 @@ fn modes(gear: &CampbellGear) -> Grid {
         .words("what moves", &gear.label)
 }
 
-fn critical(result: &CampbellResult, gear: &CampbellGear) -> Grid {
-    let rows: Vec<&CriticalSpeed> = gear.critical.iter().take(MOST_ROWS).collect();
-    let told = match gear.critical.len() {
-        all if all > MOST_ROWS => format!("Critical speeds, the first {MOST_ROWS} of {all}"),
-        _ => "Critical speeds".to_owned(),
+/// Critical speeds that are told: those in or near the operating range, if there is one, and of many
+/// the strongest.
+fn told(gear: &CampbellGear) -> (Vec<&CriticalSpeed>, String) {
+    let near = |speed: &&CriticalSpeed| speed.margin.is_none_or(|margin| margin <= CLOSE);
+    let mut rows: Vec<&CriticalSpeed> = gear.critical.iter().filter(near).collect();
+    let with_range = gear.critical.iter().any(|speed| speed.margin.is_some());
+    let place = if with_range {
+        format!(" in the operating range and within {} of it", percent(CLOSE, 2))
+    } else {
+        String::new()
     };
-    let mut grid = Grid::new(told)
+    let all = rows.len();
+    if all <= MOST_ROWS {
+        return (rows, format!("Critical speeds{place}"));
+    }
+    let strength = |speed: &CriticalSpeed| speed.torque.unwrap_or(0.0);
+    rows.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+    rows.truncate(MOST_ROWS);
+    rows.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    (rows, format!("Critical speeds{place}, the {MOST_ROWS} strongest of {all}"))
+}
+
+fn critical(result: &CampbellResult, gear: &CampbellGear) -> Grid {
+    let (rows, title) = told(gear);
+    let hertz = |row: &&CriticalSpeed| Some(row.frequency / std::f64::consts::TAU);
+    let mut grid = Grid::new(title)
         .numbers("speed", "rpm", 6, rows.iter().map(|row| Some(row.speed * RPM)))
         .numbers("order", "", 4, rows.iter().map(|row| Some(row.order)))
         .words("mode", rows.iter().map(|row| row.mode.to_string()))
-        .words("frequency", rows.iter().map(|row| frequency_words(row.frequency)));
+        .numbers("frequency", "Hz", 5, rows.iter().map(hertz));
     if result.operating.is_some() {
         let margin = |row: &&CriticalSpeed| row.margin.map(|margin| 100.0 * margin);
         grid = grid.numbers("off the operating range", "%", 3, rows.iter().map(margin));

@@ -44,7 +44,7 @@ fn owner(peak: &ForcedPeak) -> String {
 fn opening(result: &ForcedResult) -> Vec<String> {
     let orders: Vec<String> =
         result.orders.iter().take(12).map(|order| number(*order, 4)).collect();
-    let more = if result.orders.len() > 12 { ", ..." } else { "" };
+    let more = if result.orders.len() > 12 { " and so on" } else { "" };
     let told = if result.orders.len() == 1 { "order" } else { "orders" };
     let mut sentences = vec![format!("Vibration by {told} {}{more}.", orders.join(", "))];
     let peaks = result.gears.iter().filter_map(strongest);

@@ -45,8 +45,24 @@ pub(super) fn figures(result: &ForcedResult) -> Vec<Figure> {
 fn largest<'g>(gear: &'g ForcedGear, unit: &str) -> Vec<&'g ForcedPeak> {
     let mut peaks: Vec<&ForcedPeak> = gear.peaks.iter().filter(|peak| peak.unit == unit).collect();
     peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    // Pieces of a bar look alike: the most loaded one stands for all.
+    let mut known: Vec<&str> = Vec::new();
+    peaks.retain(|peak| {
+        let bar = bar(&peak.channel);
+        let new = bar.is_none_or(|bar| !known.contains(&bar));
+        known.extend(bar);
+        new
+    });
     peaks.truncate(MOST_CURVES);
     peaks
+}
+
+/// The bar of a piece such as `propeller shaft.3`.
+fn bar(channel: &str) -> Option<&str> {
+    let (owner, _) = channel.rsplit_once('.')?;
+    let (bar, piece) = owner.rsplit_once('.')?;
+    let numbered = !piece.is_empty() && piece.chars().all(|c| c.is_ascii_digit());
+    numbered.then_some(bar)
 }
 
 /// The most loaded shaft that is told order by order, where there are several orders.
