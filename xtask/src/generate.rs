@@ -75,6 +75,11 @@ fn produce(folder: &Path) -> Outcome {
     let plane = "excitation.amplitude=1..20";
     let folds = path("docs/pictures/folds.svg");
     make(&["folds", scaled, "--method", "averaged", "--parameter", plane, "--out", &folds])?;
+    let engine = "examples/engine-and-driveline/line.toml";
+    make(&["campbell", engine, "--this-gear", "--out", &path("docs/pictures/campbell.svg")])?;
+    let one = ["--this-gear", "--shaft", "web 3", "--orders", "2,4,4.5,6"];
+    let picture = path("docs/pictures/forced.svg");
+    make(&[&["forced", engine], &one[..], &["--node", "pulley", "--out", &picture]].concat())?;
     make(&["check", "--out", &path("docs/pictures/line.svg")])
 }
 

@@ -35,7 +35,7 @@ pub(crate) fn solve(
     let orders = orders(&here, question, &mut header.assumptions);
     let operating = question.operating.or(line.whole().operating_rad_s);
     let mut vibrations = Vec::new();
-    for (gear, line) in gears(line)? {
+    for (gear, line) in gears(line, question.this_gear)? {
         match Vibration::of(&line, None) {
             Ok(vibration) => vibrations.push((gear, vibration)),
             Err(AnalysisError::NoEquilibrium { reason }) => {

@@ -32,7 +32,7 @@ pub(crate) fn solve(
         );
     }
     let mut told = Vec::new();
-    for (gear, line) in gears(line)? {
+    for (gear, line) in gears(line, question.this_gear)? {
         if observer.cancelled() {
             stopped(&mut header, told.len());
             break;

@@ -53,7 +53,7 @@ const OF_A_GEAR: usize = 6;
 /// The lowest modes in every gear; none without a list of ratios, and in gears without a stable state.
 pub(crate) fn in_gears(line: &Driveline, count: usize) -> Result<Vec<ModesInGear>, AnalysisError> {
     let mut rows = Vec::new();
-    for (gear, line) in gears(line)?.into_iter().filter(|(gear, _)| gear.gearbox.is_some()) {
+    for (gear, line) in gears(line, false)?.into_iter().filter(|(gear, _)| gear.gearbox.is_some()) {
         let vibration = match Vibration::of(&line, None) {
             Err(AnalysisError::NoEquilibrium { .. }) => {
                 rows.push(ModesInGear {

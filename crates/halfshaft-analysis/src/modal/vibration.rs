@@ -56,10 +56,13 @@ impl Vibration {
 }
 
 /// Every gear of every gearbox that lists its ratios, with the line in it; the line as it is where there
-/// is none.
-pub(crate) fn gears(line: &Driveline) -> Result<Vec<(Gear, Driveline)>, AnalysisError> {
+/// is none, or where only its gear is wanted.
+pub(crate) fn gears(
+    line: &Driveline,
+    only_this: bool,
+) -> Result<Vec<(Gear, Driveline)>, AnalysisError> {
     let mut gears = Vec::new();
-    for gear in line.gears().iter().filter(|gear| gear.ratios.len() > 1) {
+    for gear in line.gears().iter().filter(|gear| gear.ratios.len() > 1 && !only_this) {
         let Ok(parameter) = line.parameter(&format!("{}.ratio", gear.name)) else { continue };
         for ratio in &gear.ratios {
             let which = Gear { gearbox: Some(gear.name.clone()), ratio: Some(*ratio) };

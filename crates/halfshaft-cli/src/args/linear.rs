@@ -23,6 +23,9 @@ pub struct Campbell {
     /// How many of the lowest elastic modes [default: 12]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub count: Option<String>,
+    /// Only in the gear that the model is in, not in all that a gearbox lists
+    #[arg(long)]
+    pub this_gear: bool,
 }
 
 #[derive(Args, Debug)]
@@ -45,6 +48,9 @@ pub struct Forced {
     /// Nodes to tell of, order by order too [default: all of a line of up to 16 inertias]
     #[arg(long, value_name = "NAME,NAME,...")]
     pub node: Option<String>,
+    /// Only in the gear that the model is in, not in all that a gearbox lists
+    #[arg(long)]
+    pub this_gear: bool,
 }
 
 impl Campbell {
@@ -54,6 +60,7 @@ impl Campbell {
             orders: self.orders.clone(),
             operating: self.operating.clone(),
             count: self.count.clone(),
+            this_gear: self.this_gear,
             ..QuestionText::default()
         }
     }
@@ -67,6 +74,7 @@ impl Forced {
             orders: self.orders.clone(),
             shaft: self.shaft.clone(),
             node: self.node.clone(),
+            this_gear: self.this_gear,
             ..QuestionText::default()
         }
     }

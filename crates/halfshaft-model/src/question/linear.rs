@@ -21,11 +21,13 @@ pub struct CampbellQuestion {
     pub operating: Option<(f64, f64)>,
     /// How many of the lowest elastic modes, at most.
     pub count: usize,
+    /// Whether only the gear that the model is in is wanted, not every one that a gearbox lists.
+    pub this_gear: bool,
 }
 
 impl Default for CampbellQuestion {
     fn default() -> Self {
-        Self { frequency: None, orders: None, operating: None, count: 12 }
+        Self { frequency: None, orders: None, operating: None, count: 12, this_gear: false }
     }
 }
 
@@ -42,6 +44,8 @@ pub struct ForcedQuestion {
     pub shafts: Option<Vec<String>>,
     /// Nodes that are told; `None` for all of a short line.
     pub nodes: Option<Vec<String>>,
+    /// Whether only the gear that the model is in is wanted, not every one that a gearbox lists.
+    pub this_gear: bool,
 }
 
 /// Most speeds.
@@ -58,6 +62,7 @@ impl Reader<'_> {
             orders: self.listed_orders(),
             operating: self.speeds_from_zero("operating", text.operating.as_deref()),
             count: self.count("count", text.count.as_deref(), 1, 1000).unwrap_or(default.count),
+            this_gear: text.this_gear,
         }
     }
 
@@ -74,6 +79,7 @@ impl Reader<'_> {
             orders: self.listed_orders(),
             shafts: self.names("shaft", text.shaft.as_deref(), &shafts),
             nodes: self.names("node", text.node.as_deref(), &nodes),
+            this_gear: text.this_gear,
         }
     }
 

@@ -76,6 +76,8 @@ pub struct QuestionText {
     pub operating: Option<String>,
     /// `--node`.
     pub node: Option<String>,
+    /// `--this-gear`.
+    pub this_gear: bool,
 }
 
 /// What is wrong with one option.

@@ -52,6 +52,7 @@ pub static QUESTION: TableSpec = TableSpec {
         option("operating", "As --operating."),
         option("node", "As --node."),
         KeySpec::new("no-branches", ValueSpec::Flag, "As --no-branches."),
+        KeySpec::new("this-gear", ValueSpec::Flag, "As --this-gear."),
         KeySpec::new("backbone", ValueSpec::Flag, "As --backbone."),
         KeySpec::new("printed-velocity", ValueSpec::Flag, "As --printed-velocity."),
         KeySpec::new("verify", ValueSpec::Flag, "As --verify."),

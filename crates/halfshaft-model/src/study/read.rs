@@ -356,6 +356,7 @@ fn question_text(table: &CheckedTable) -> QuestionText {
         count: option("count"),
         operating: option("operating"),
         node: option("node"),
+        this_gear: table.flag("this-gear"),
     }
 }
 

@@ -103,11 +103,11 @@ impl<T: Scalar> SymmetricSystem<T> {
         let mut rows = std::mem::take(&mut self.rows);
         self.largest_of_rows(&mut rows);
         let mut smallest = f64::INFINITY;
-        for at in 0..pattern.nodes() {
-            let ratio = self.diagonal[at].size() / rows[at];
+        for (at, &largest) in rows.iter().enumerate() {
+            let ratio = self.diagonal[at].size() / largest;
             smallest = smallest.min(ratio);
-            if ratio < least || rows[at] == 0.0 {
-                self.diagonal[at] = T::from((least * rows[at]).max(f64::MIN_POSITIVE.sqrt()));
+            if ratio < least || largest == 0.0 {
+                self.diagonal[at] = T::from((least * largest).max(f64::MIN_POSITIVE.sqrt()));
             }
             let inverse = T::from(1.0) / self.diagonal[at];
             let (first, later) = (pattern.first(at), pattern.later(at));

@@ -59,7 +59,7 @@ fn opening(result: &ForcedResult) -> Vec<String> {
             String::new()
         };
         sentences.push(format!(
-            "The largest vibratory torque is ± {} in the {} at {} rpm{by}.",
+            "The largest vibratory torque is ±{} in the {} at {} rpm{by}.",
             quantity(peak.amplitude, 4, "N·m"),
             owner(peak),
             number(peak.speed * RPM, 4),

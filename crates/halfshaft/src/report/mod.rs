@@ -8,8 +8,7 @@ use halfshaft_model::question::{
 };
 use halfshaft_numerics::observer::{Observer, Part};
 use halfshaft_results::{
-    Answer, FoldsResult, Gear, Header, MissingSection, Reason, ReportResult, ResonanceResult,
-    Termination,
+    Answer, FoldsResult, Header, MissingSection, Reason, ReportResult, ResonanceResult, Termination,
 };
 
 mod coexisting;
@@ -105,32 +104,19 @@ impl Reporter<'_> {
         if !driven && self.line.whole().operating_rad_s.is_none() {
             return;
         }
-        let campbell = Question::Campbell(CampbellQuestion::default());
-        if let Some(Answer::Campbell(mut campbell)) = self.ask("campbell", &campbell) {
-            self.only_this_gear(&mut campbell.gears, |row| &row.gear);
+        // A report is about the gear that the model is in; its modes are told gear by gear.
+        let campbell = CampbellQuestion { this_gear: true, ..CampbellQuestion::default() };
+        if let Some(Answer::Campbell(campbell)) =
+            self.ask("campbell", &Question::Campbell(campbell))
+        {
             self.report.campbell = Some(campbell);
         }
         if !driven {
             return;
         }
-        let forced = Question::Forced(ForcedQuestion::default());
-        if let Some(Answer::Forced(mut forced)) = self.ask("forced", &forced) {
-            self.only_this_gear(&mut forced.gears, |row| &row.gear);
+        let forced = ForcedQuestion { this_gear: true, ..ForcedQuestion::default() };
+        if let Some(Answer::Forced(forced)) = self.ask("forced", &Question::Forced(forced)) {
             self.report.forced = Some(forced);
-        }
-    }
-
-    /// A report is about the gear that the model is in; its modes are told gear by gear.
-    fn only_this_gear<T>(&self, rows: &mut Vec<T>, gear: fn(&T) -> &Gear) {
-        let engaged = |row: &T| {
-            let Gear { gearbox, ratio } = gear(row);
-            let named = |name: &String| self.line.gears().iter().find(|gear| gear.name == *name);
-            gearbox.as_ref().and_then(named).is_some_and(|gear| Some(gear.ratio) == *ratio)
-        };
-        let place = rows.iter().position(engaged).unwrap_or(0);
-        if place < rows.len() {
-            rows.swap(0, place);
-            rows.truncate(1);
         }
     }
 

@@ -70,6 +70,8 @@ pub fn answers(line: &Driveline) -> Vec<Answer> {
         (Verb::Check, usual()),
         (Verb::Static, usual()),
         (Verb::Modes, usual()),
+        (Verb::Campbell, QuestionText { operating: Some("50rpm..400rpm".to_owned()), ..usual() }),
+        (Verb::Forced, QuestionText { points: Some("50".to_owned()), ..usual() }),
         (Verb::Simulate, QuestionText { duration: short(), ..usual() }),
         (Verb::Shock, QuestionText { compare: true, ..usual() }),
         (Verb::Resonance, QuestionText { verify: true, ..averaged() }),

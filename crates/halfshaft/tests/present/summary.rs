@@ -66,6 +66,22 @@ fn every_summary_tells_the_numbers_of_its_answer() {
                 assert_shows(value(cells[3]), mode.damped_frequency, 6);
                 assert_shows(value(cells[4]), mode.damping_ratio, 4);
             }
+            Answer::Campbell(result) => {
+                let critical = &result.gears[0].critical[0];
+                let cells = row(&shown, "Critical speeds in", "");
+                assert!(told.contains("is run from 50 to 400 rpm"), "{told}");
+                assert!(shown.contains(&cells[0].to_owned()) && critical.mode == 1);
+                let strongest = result.gears.iter().flat_map(|gear| &gear.critical);
+                let strongest = strongest.filter(|speed| speed.margin.is_some_and(|m| m < 0.2));
+                let torque = strongest.filter_map(|speed| speed.torque).fold(0.0, f64::max);
+                assert_shows(number_after(&told, "loads the half-shaft with ±"), torque, 4);
+            }
+            Answer::Forced(result) => {
+                let peaks = result.gears.iter().flat_map(|gear| &gear.peaks);
+                let torques = peaks.filter(|peak| peak.unit == "N·m").map(|peak| peak.amplitude);
+                let largest = torques.fold(0.0, f64::max);
+                assert_shows(number_after(&told, "vibratory torque is ±"), largest, 4);
+            }
             Answer::History(result) => match &result.shock {
                 Some(_) => {
                     let shaft = &result.metrics.shafts["half-shaft"];
@@ -157,7 +173,7 @@ fn every_summary_tells_the_numbers_of_its_answer() {
             }
         }
     }
-    assert_eq!(seen, 8, "every verb has its answer");
+    assert_eq!(seen, 10, "every verb has its answer");
 }
 
 fn statics(result: &StaticResult, told: &str) {
