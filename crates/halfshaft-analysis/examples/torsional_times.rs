@@ -18,6 +18,7 @@ use halfshaft_results::Answer;
 /// Speeds of a forced vibration.
 const SPEEDS: &str = "1000";
 
+#[expect(clippy::print_stdout, reason = "a program of its own, whose output this is")]
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [what, count, repeats] = arguments.as_slice() else {

@@ -73,6 +73,16 @@ pub enum AnalysisError {
         /// What was asked.
         verb: &'static str,
     },
+    /// An answer that would not fit.
+    #[error("the answer would have {values} numbers, and at most {most} are told")]
+    TooLarge {
+        /// Numbers of the answer.
+        values: usize,
+        /// Numbers that are told.
+        most: usize,
+        /// What to leave out.
+        advice: &'static str,
+    },
     /// A shock without anything that disturbs.
     #[error("nothing disturbs the line")]
     NoDisturbance,
@@ -126,6 +136,7 @@ impl AnalysisError {
                 "give the shafts a damping instead and leave it out, e.g. --set line.modal_damping=0 \
                  --set line.loss_factor=0; `modes` tells the damping ratios that result"
             }
+            Self::TooLarge { advice, .. } => advice,
             Self::NoDisturbance => {
                 "give a torque of the model a pulse, or ask `halfshaft shock` with \
                  --initial \"SHAFT.twist=1 rad\", SHAFT being a shaft of the model"

@@ -622,3 +622,39 @@ fn a_mesh_may_refer_to_either_side() {
     let exact = (900.0_f64 * (1.0 / 30.0 + 1.0 / 18.0)).sqrt();
     assert!((input.frequency / exact - 1.0).abs() < 1e-12);
 }
+
+// Source: the impedance of two springs with dampers in series, (k1 + c1 λ) (k2 + c2 λ) / (k1 + k2 + (c1 + c2) λ),
+// holds the mass: λ² m and it add up to zero; for c2 alone (Maxwell) the forced vibration is a quotient.
+#[test]
+fn dampers_at_massless_nodes_are_exact() {
+    let m = 2.0;
+    let line = |[k1, c1, k2, c2]: [f64; 4]| {
+        chain(
+            &[m],
+            &[],
+            &format!(
+                "[[shaft]]\nname = \"one\"\nfrom = \"J0\"\nto = \"between\"\nstiffness = {k1:?}\ndamping = {c1:?}\n\
+                 [[shaft]]\nname = \"two\"\nfrom = \"between\"\nto = \"ground\"\nstiffness = {k2:?}\ndamping = {c2:?}\n\
+                 [[torque]]\nname = \"t\"\non = \"J0\"\namplitude = 1\n"
+            ),
+        )
+    };
+    let impedance = |[k1, c1, k2, c2]: [f64; 4], value: Complex| {
+        let spring = |k: f64, c: f64| Complex::from(k) + value.scaled(c);
+        spring(k1, c1) * spring(k2, c2) / spring(k1 + k2, c1 + c2)
+    };
+    for values in [[800.0, 5.0, 1500.0, 20.0], [800.0, 0.0, 300.0, 4.0], [900.0, 3.0, 50.0, 0.0]] {
+        let found = modes(&line(values), &QuestionText::default());
+        let (re, im) = found.modes[0].eigenvalues[0];
+        let value = Complex::new(re, im);
+        let rest = (value * value).scaled(m) + impedance(values, value);
+        assert!(im > 0.0 && rest.modulus() < 1e-9 * (im * im * m), "{value:?} {rest:?}");
+    }
+    let maxwell = [800.0, 0.0, 0.0, 90.0];
+    let at =
+        QuestionText { frequency: some("15..16"), points: some("2"), ..QuestionText::default() };
+    let torque = forced(&line(maxwell), &at).gears[0].table.values("one.torque.amplitude")[0];
+    let series = impedance(maxwell, Complex::new(0.0, 15.0));
+    let exact = (series / (series - Complex::from(15.0 * 15.0 * m))).modulus();
+    assert!((torque / exact - 1.0).abs() < 1e-12, "{torque} {exact}");
+}

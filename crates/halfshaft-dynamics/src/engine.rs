@@ -7,7 +7,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use halfshaft_model::elements::{CrankGear, CrankTable, Engine, Harmonic};
+use halfshaft_model::elements::{CrankGear, CrankTable, Engine, Harmonic, MOST_HIGHEST_ORDER};
 use halfshaft_numerics::Complex;
 
 /// Orders of the lever that are kept: `(r / 2 l)^32` is below rounding for rods of 1.2 crank radii.
@@ -97,7 +97,7 @@ fn at(coefficients: &[Complex], k: isize) -> Complex {
 pub fn cylinder_orders(engine: &Engine) -> CylinderOrders {
     let revolutions = engine.revolutions();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "rounded down")]
-    let most = (engine.highest_order * revolutions + 1e-9).min(1e6).floor() as usize;
+    let most = (highest_order(engine) * revolutions + 1e-9).floor() as usize;
     let listed = |coefficients: &[Complex]| -> Vec<CylinderOrder> {
         let order = |(k, value): (usize, &Complex)| {
             #[expect(clippy::cast_precision_loss, reason = "a few dozen orders")]
@@ -122,9 +122,14 @@ pub fn cylinder_orders(engine: &Engine) -> CylinderOrders {
         orders.gas = listed(&gas_torque(&gas, crank, most, step));
     }
     if crank.oscillating_mass_kg > 0.0 {
-        orders.mass = mass_torque(crank, engine.highest_order);
+        orders.mass = mass_torque(crank, highest_order(engine));
     }
     orders
+}
+
+/// The highest order, within what can be taken: a sweep may have set it.
+fn highest_order(engine: &Engine) -> f64 {
+    engine.highest_order.min(MOST_HIGHEST_ORDER)
 }
 
 /// Coefficients of pressure times area times lever: `T_k = A Σ_m x'_m p_(k - step m)`.

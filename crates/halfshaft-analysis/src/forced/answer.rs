@@ -15,6 +15,9 @@ use crate::error::AnalysisError;
 use crate::header::header;
 use crate::modal::vibration::{Vibration, gears};
 
+/// Most numbers of one gear: they are half a gigabyte.
+const MOST_VALUES: usize = 60_000_000;
+
 /// Answers `forced`.
 pub(crate) fn solve(
     line: &Driveline,
@@ -63,7 +66,15 @@ fn in_gear(
         None => default_range(line, vibration, orders)?,
     };
     let speeds = speeds(vibration, question, orders, range)?;
-    let mut sweep = Sweep::new(vibration, orders, channels(vibration, question, orders.len()));
+    let channels = channels(vibration, question, orders.len());
+    let columns: usize =
+        channels.iter().map(|c| if c.orders { 1 + 2 * orders.len() } else { 1 }).sum();
+    let values = columns.saturating_mul(speeds.len());
+    if values > MOST_VALUES {
+        let advice = "take fewer --points, or name the shafts and nodes with --shaft and --node";
+        return Err(AnalysisError::TooLarge { values, most: MOST_VALUES, advice });
+    }
+    let mut sweep = Sweep::new(vibration, orders, channels);
     sweep.run(&speeds, observer)?;
     Ok(sweep.into_result(gear))
 }

@@ -84,7 +84,7 @@ impl<'v> Sweep<'v> {
                 let omega = order * speed;
                 self.torques(*order, *speed, &mut motion);
                 line.solve(omega, &mut motion);
-                if omega == 0.0 {
+                if omega == 0.0 && self.vibration.equations.rigid.is_some() {
                     // A standing excitation moves a free line away.
                     motion.fill(Complex::new(f64::NAN, f64::NAN));
                 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 /// Samples over a period of the highest order.
 const SAMPLES: usize = 32;
 /// Most samples over the common period.
-const MOST_SAMPLES: usize = 1 << 14;
+const MOST_SAMPLES: usize = 1 << 16;
 /// Newton steps on the slope from the best sample.
 const POLISHING: usize = 4;
 /// Terms of the Taylor series about a sample: half a step of the samples is a tenth of a radian of the

@@ -42,8 +42,8 @@ pub(crate) fn damped(
     } else {
         coupled(&modal, modes, rigid.is_some())?
     };
-    if modes.len() < elastic_count(equations) {
-        // Damping couples to the modes that are left out as well.
+    if modes.len() < elastic_count(equations) || equations.massless().is_some() {
+        // Damping couples to the modes that are left out as well, and moves massless nodes.
         refined(equations, twists, modes, &mut pairs.elastic);
     }
     for (mode, pair) in modes.iter().zip(&mut pairs.elastic) {

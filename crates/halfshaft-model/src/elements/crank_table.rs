@@ -58,7 +58,7 @@ pub static CRANK_TORQUE: TableSpec = TableSpec {
 };
 
 /// Most points.
-const MOST_POINTS: usize = 100_000;
+const MOST_POINTS: usize = 10_000;
 /// Share of a step by which angles may be off an equal spacing: files are written with few digits.
 const UNEVEN: f64 = 1e-3;
 
@@ -81,7 +81,7 @@ impl CrankTable {
         }
         if angles.len() > MOST_POINTS {
             let message = format!("the table has {} points", angles.len());
-            return Err((message, "thin it out: up to 100 000 points are taken"));
+            return Err((message, "thin it out: up to 10 000 points are taken"));
         }
         let [first, .., last] = angles[..] else {
             return Err(("the table has fewer than four points".to_owned(), "add points"));

@@ -62,6 +62,8 @@ const fn quantity(
 
 /// Most cylinders.
 const MOST_CYLINDERS: u32 = 64;
+/// Highest order that can be taken.
+pub const MOST_HIGHEST_ORDER: f64 = 500.0;
 /// Highest order that is taken where the file does not say.
 const HIGHEST_ORDER: f64 = 12.0;
 
@@ -129,7 +131,7 @@ pub static ENGINE: TableSpec = TableSpec {
             "highest_order",
             QuantityKind::Number,
             Sign::Positive,
-            "Highest order that is taken. Default 12.",
+            "Highest order that is taken, up to 500. Default 12.",
         ),
     ],
 };

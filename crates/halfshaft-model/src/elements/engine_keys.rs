@@ -1,6 +1,6 @@
 //! Which keys of an engine go together.
 
-use super::engine::firing_order;
+use super::engine::{MOST_HIGHEST_ORDER, firing_order};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::format::CheckedTable;
 
@@ -9,6 +9,10 @@ pub(crate) fn check_engine(engine: &CheckedTable, found: &mut Diagnostics) {
     check_sources(engine, found);
     check_crank(engine, found);
     check_cylinders(engine, found);
+    if engine.number("highest_order").is_some_and(|order| order > MOST_HIGHEST_ORDER) {
+        let message = format!("orders are taken up to {MOST_HIGHEST_ORDER}");
+        found.push(Diagnostic::error(engine.span_of("highest_order"), message));
+    }
     if engine.number("strokes").is_some_and(|strokes| strokes == 3.0) {
         let message = "a working cycle has 2 or 4 strokes, not 3";
         found.push(Diagnostic::error(engine.span_of("strokes"), message));

@@ -27,7 +27,7 @@ pub use crank_table::{CRANK_PRESSURE, CRANK_TORQUE, CrankTable};
 pub use damper::{DAMPER, Damper};
 pub use dimensions::Dimensions;
 pub use engagement::{ENGAGEMENT, Engagement};
-pub use engine::{CrankGear, ENGINE, Engine};
+pub use engine::{CrankGear, ENGINE, Engine, MOST_HIGHEST_ORDER};
 pub(crate) use engine_keys::check_engine;
 pub use gear::{GEAR, Gear};
 pub use inertia::{INERTIA, Inertia};
