@@ -16,6 +16,10 @@ use super::tracer::{Counted, LEAST_HARMONICS};
 const COUNTED: usize = 7;
 /// Rows and columns of the count of responses.
 const GRID: usize = 121;
+/// Part of the speeds next to the lowest whose folds tell how many harmonics responses have there.
+const BESIDE: f64 = 0.1;
+/// Harmonics with which these responses are counted at most.
+const MOST_COUNTED: usize = 32;
 
 impl Plane<'_, '_> {
     /// Responses over a grid of the plane: those at the lowest speed, and two more or less at each
@@ -76,10 +80,11 @@ impl Plane<'_, '_> {
         observer: &dyn Observer,
     ) -> Vec<u32> {
         let every = values.len().div_ceil(COUNTED);
+        let highest = self.harmonics_at_low_speed(curves);
         let counted: Vec<(usize, f64)> = (0..values.len())
             .filter(|index| index % every == every / 2)
             .filter_map(|index| {
-                let count = self.followed_over_drive(shape, values[index], observer)?;
+                let count = self.followed_over_drive(shape, values[index], highest, observer)?;
                 Some((index, count - self.beyond_low_speed(curves, values[index])))
             })
             .collect();
@@ -92,11 +97,22 @@ impl Plane<'_, '_> {
         (0..values.len()).map(|index| at(index).max(0.0) as u32).collect()
     }
 
+    /// Half the harmonics of the folds near the lowest speed, enough to tell responses apart: with far
+    /// fewer some are counted that are none.
+    fn harmonics_at_low_speed(&self, curves: &[FoldCurve]) -> usize {
+        let (low, high) = self.window;
+        let samples = curves.iter().flat_map(|curve| &curve.samples);
+        let beside = samples.filter(|sample| sample.frequency < low + BESIDE * (high - low));
+        let most = beside.map(|sample| sample.set.highest()).max().unwrap_or(0);
+        most.div_ceil(2).clamp(LEAST_HARMONICS, MOST_COUNTED)
+    }
+
     /// Responses at the lowest speed that the curve over the drive passes.
     fn followed_over_drive(
         &self,
         shape: &Shape,
         value: f64,
+        highest: usize,
         observer: &dyn Observer,
     ) -> Option<f64> {
         let equations = self.lines.at(value)?;
@@ -107,7 +123,7 @@ impl Plane<'_, '_> {
             &setting.rest,
             shape.base,
             shape.odd,
-            LEAST_HARMONICS,
+            highest,
             self.window.0.max(1e-3 * self.window.1),
             observer,
             &mut Counted::default(),

@@ -41,6 +41,7 @@ mod hill;
 mod images;
 mod jumps;
 mod kinks;
+mod lanes;
 pub mod layers;
 mod line;
 mod lines;
@@ -74,6 +75,7 @@ mod tests;
 mod tips;
 mod tracer;
 mod verify;
+mod whole_line;
 
 pub(crate) use answer::solve;
 pub(crate) use at_speed::{AtSpeed, Response};

@@ -23,9 +23,10 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 
 use super::panels::{Panels, Tangent};
 use super::reduction::Reduction;
-use super::series::{MOST, Truncation, expand, friction_slope, stiffness};
-use super::structure::{Structure, WholeLine};
+use super::series::{MOST, Truncation, Waves, friction_slope, stiffness};
+use super::structure::Structure;
 use super::switching::passages;
+use super::whole_line::WholeLine;
 
 /// An orbit as the variational equation sees it.
 pub(super) struct Orbit<'o> {
@@ -53,6 +54,8 @@ const MOST_STEPS: usize = 100_000;
 const NEGLIGIBLE: f64 = 1e-15;
 /// Columns from which on series are longer.
 const MANY: usize = 12;
+/// Terms beyond those that matter by which it is told that a series has died out.
+const SPARE: usize = 4;
 /// Part of the longest step that the last step's terms allowed.
 const CAUTION: f64 = 0.92;
 
@@ -130,6 +133,8 @@ impl Variational {
             if structure.columns() > MANY { Truncation::LONG } else { Truncation::SHORT };
         let mut panels = Panels::<W>::new(structure, orbit.speed, truncation);
         let mut tangents = linear_tangents(equations, structure.connections());
+        let mut degree = Degree { enough: truncation.degree, most: truncation.degree };
+        let mut waves = Waves::new(orbit.set);
         let mut next = self.first.get() / orbit.speed;
         let (mut t, mut steps) = (0.0, 0);
         for goal in self.stops(orbit, end) {
@@ -142,14 +147,14 @@ impl Variational {
                 place.t = t;
                 if next == 0.0 {
                     place.reach = goal - t;
-                    place.expand(structure.connections(), truncation.degree, &mut tangents);
+                    place.expand(structure.connections(), &mut waves, &mut degree, &mut tangents);
                     next = panels.longest_step(structure, &tangents);
                 }
                 let left = goal - t;
                 // A sliver left over would cost a step of its own.
                 let mut step = if next > 0.8 * left { left.min(1.2 * next) } else { next };
                 place.reach = step;
-                place.expand(structure.connections(), truncation.degree, &mut tangents);
+                place.expand(structure.connections(), &mut waves, &mut degree, &mut tangents);
                 let reach = panels.step(structure, &tangents, &mut step);
                 t = if step == left { goal } else { t + step };
                 next = CAUTION * reach;
@@ -207,24 +212,67 @@ struct Place<'p> {
     reach: f64,
 }
 
+/// Powers of time of the tangents.
+struct Degree {
+    /// How far they were needed last.
+    enough: usize,
+    most: usize,
+}
+
 impl Place<'_> {
-    /// Writes the tangents of the nonlinear ones of the listed connections, ascending.
-    fn expand(&self, list: &[usize], degree: usize, tangents: &mut [Tangent]) {
+    /// Writes the tangents of the nonlinear ones of the listed connections, ascending, as far as they
+    /// matter: most die out long before the last power of time that the columns take.
+    fn expand(
+        &self,
+        list: &[usize],
+        waves: &mut Waves,
+        degree: &mut Degree,
+        tangents: &mut [Tangent],
+    ) {
+        // Beyond this power the terms of all orders die out.
+        let turn = 2.0 * self.orbit.set.highest() as f64 * self.orbit.speed * self.reach;
+        if degree.enough as f64 <= turn {
+            degree.enough = degree.most;
+        }
+        loop {
+            let terms = self.expand_to(list, waves, degree.enough, tangents);
+            let died_out = terms + SPARE <= degree.enough + 1;
+            let done = died_out || degree.enough == degree.most;
+            degree.enough = if died_out { (terms + SPARE).min(degree.most) } else { degree.most };
+            if done {
+                return;
+            }
+        }
+    }
+
+    /// The same to a power of time; gives the number of terms that matter.
+    fn expand_to(
+        &self,
+        list: &[usize],
+        waves: &mut Waves,
+        degree: usize,
+        tangents: &mut [Tangent],
+    ) -> usize {
         let mut x = [0.0; MOST + 1];
+        let mut most = 0;
+        waves.about(self.orbit.set, self.orbit.speed, self.t, degree);
         for (connection, twist) in self.orbit.twists {
             let Some(piece) = &self.pieces[*connection] else { continue };
             let Ok(place) = list.binary_search(connection) else { continue };
             let tangent = &mut tangents[place];
             let connection = &self.equations.connections[*connection];
-            expand(self.orbit.set, twist, self.orbit.speed, self.t, degree, &mut x);
+            waves.sum(self.orbit.set, twist, &mut x);
             stiffness(piece, &x, degree, &mut tangent.stiffness);
             tangent.stiffness_terms = terms(&tangent.stiffness[..=degree], self.reach);
+            most = most.max(tangent.stiffness_terms);
             if let Some(friction) = &connection.friction {
                 friction_slope(friction, &x, degree, &mut tangent.damping);
                 tangent.damping[0] += connection.damping;
                 tangent.damping_terms = terms(&tangent.damping[..=degree], self.reach);
+                most = most.max(tangent.damping_terms);
             }
         }
+        most
     }
 }
 

@@ -5,8 +5,9 @@
 
 use halfshaft_numerics::dense::Matrix;
 
+use super::lanes::Rows;
 use super::series::{MOST, Series, Truncation};
-use super::structure::{Structure, sum};
+use super::structure::{Structure, sums};
 
 /// Tangent stiffness and damping of one connection over a step.
 #[derive(Clone)]
@@ -23,13 +24,13 @@ pub(super) const TERMS: usize = MOST + 1;
 /// Columns of the variational equation at one time.
 pub(super) struct Panels<const W: usize> {
     /// Coordinates, then their rates, panel after panel.
-    state: Vec<[f64; W]>,
-    next: Vec<[f64; W]>,
+    state: Rows<W>,
+    next: Rows<W>,
     /// Coefficients of the panel at hand: power, coordinate.
-    coordinates: Vec<[f64; W]>,
+    coordinates: Rows<W>,
     /// The same of twists: connection, power.
-    twists: Vec<[f64; W]>,
-    net: Vec<[f64; W]>,
+    twists: Rows<W>,
+    net: Rows<W>,
     columns: usize,
     count: usize,
     /// Rates are measured by it.
@@ -75,7 +76,7 @@ impl<const W: usize> Panels<W> {
     pub(super) fn new(structure: &impl Structure, speed: f64, truncation: Truncation) -> Self {
         let (count, columns) = (structure.coordinates(), structure.columns());
         let panels = columns.div_ceil(W);
-        let mut state = vec![[0.0; W]; panels * 2 * count];
+        let mut state = Rows::<W>::zeros(panels * 2 * count);
         structure.start(speed, &mut |column, power, values| {
             let from = (2 * (column / W) + power) * count;
             for (row, value) in state[from..from + count].iter_mut().zip(values) {
@@ -83,11 +84,11 @@ impl<const W: usize> Panels<W> {
             }
         });
         Self {
-            next: state.clone(),
+            next: Rows::zeros(state.len()),
             state,
-            coordinates: vec![[0.0; W]; TERMS * count],
-            twists: vec![[0.0; W]; TERMS * structure.connections().len()],
-            net: vec![[0.0; W]; count],
+            coordinates: Rows::zeros(TERMS * count),
+            twists: Rows::zeros(TERMS * structure.connections().len()),
+            net: Rows::zeros(count + structure.connections().len()),
             arch: pulp::Arch::new(),
             columns,
             count,
@@ -157,26 +158,26 @@ impl<const W: usize> Panels<W> {
     /// The step after which the last two terms are rounding beside the first.
     #[inline(always)]
     fn reach(&self) -> f64 {
-        let size = |power: usize| {
-            let rows = &self.coordinates[power * self.count..(power + 1) * self.count];
-            let mut most = [0.0_f64; W];
-            for row in rows {
-                for (most, value) in most.iter_mut().zip(row) {
-                    *most = most.max(value.abs());
-                }
-            }
-            most.into_iter().fold(0.0, f64::max)
-        };
-        let scale = size(0).max(size(1) / self.speed);
-        let reach = |power: usize| {
-            let last = size(power);
-            if last == 0.0 {
-                return f64::INFINITY;
-            }
-            (self.truncation.rounding * scale / last).powf(1.0 / power as f64)
-        };
+        let scale = self.size(0).max(self.size(1) / self.speed);
         let degree = self.truncation.degree;
-        reach(degree).min(reach(degree - 1))
+        let [last, before] = [degree, degree - 1].map(|power| match self.size(power) {
+            0.0 => f64::INFINITY,
+            size => (self.truncation.rounding * scale / size).powf(1.0 / power as f64),
+        });
+        last.min(before)
+    }
+
+    /// The largest of all coefficients of a power.
+    #[inline(always)]
+    fn size(&self, power: usize) -> f64 {
+        let mut most = [0.0_f64; W];
+        for row in &self.coordinates[power * self.count..(power + 1) * self.count] {
+            for lane in 0..W {
+                let value = row[lane].abs();
+                most[lane] = if value > most[lane] { value } else { most[lane] };
+            }
+        }
+        most.into_iter().fold(0.0, f64::max)
     }
 
     /// Writes coordinates and rates after `step` to the next state.
@@ -184,22 +185,19 @@ impl<const W: usize> Panels<W> {
     fn advance<const FUSED: bool>(&mut self, panel: usize, step: f64) {
         let count = self.count;
         let from = 2 * panel * count;
-        for at in 0..count {
+        let (starts, later) = self.coordinates.split_at(2 * count);
+        let (values, rates) = self.next[from..from + 2 * count].split_at_mut(count);
+        for (at, (out, out_rate)) in values.iter_mut().zip(rates).enumerate() {
             // q = q0 + q1 t + t² v(t): value and slope of v by Horner's rule.
             let (mut value, mut slope) = ([0.0_f64; W], [0.0_f64; W]);
-            for power in (2..=self.truncation.degree).rev() {
-                let term = &self.coordinates[power * count + at];
-                for lane in 0..W {
-                    slope[lane] = sum::<FUSED>(slope[lane], step, value[lane]);
-                    value[lane] = sum::<FUSED>(value[lane], step, term[lane]);
-                }
+            for terms in later[..(self.truncation.degree - 1) * count].chunks_exact(count).rev() {
+                slope = sums::<W, FUSED>(step, &slope, &value);
+                value = sums::<W, FUSED>(step, &value, &terms[at]);
             }
-            let (value0, rate) = (self.coordinates[at], self.coordinates[count + at]);
-            for lane in 0..W {
-                let (v, s) = (value[lane], slope[lane]);
-                self.next[from + at][lane] = value0[lane] + step * (rate[lane] + step * v);
-                self.next[from + count + at][lane] = rate[lane] + step * (2.0 * v + step * s);
-            }
+            let (start, rate) = (&starts[at], &starts[count + at]);
+            let twice = value.map(|value| 2.0 * value);
+            *out_rate = sums::<W, FUSED>(step, &sums::<W, FUSED>(step, &slope, &twice), rate);
+            *out = sums::<W, FUSED>(step, &sums::<W, FUSED>(step, &value, rate), start);
         }
     }
 

@@ -25,38 +25,56 @@ impl Truncation {
     pub(super) const LONG: Self = Self { degree: MOST, rounding: 1e-11 };
 }
 
-/// Taylor coefficients about time `t` of the series `coefficients` with fundamental `speed`.
-pub(super) fn expand(
-    set: &HarmonicSet,
-    coefficients: &[f64],
-    speed: f64,
-    t: f64,
+/// Taylor coefficients in time of the waves of a set of harmonics, the same for all twists.
+pub(super) struct Waves {
+    /// Of the cosine and the sine of each order.
+    series: Vec<(Series, Series)>,
     degree: usize,
-    out: &mut Series,
-) {
-    out.fill(0.0);
-    let theta = speed * t;
-    let (sin1, cos1) = theta.sin_cos();
-    let (mut sine, mut cosine) = (0.0, 1.0);
-    let mut at = 0;
-    for (order, place) in set.places() {
-        while at < order {
-            (sine, cosine) = (sine * cos1 + cosine * sin1, cosine * cos1 - sine * sin1);
-            at += 1;
+}
+
+impl Waves {
+    pub(super) fn new(set: &HarmonicSet) -> Self {
+        Self { series: vec![([0.0; MOST + 1], [0.0; MOST + 1]); set.orders().len()], degree: 0 }
+    }
+
+    /// Expands them about time `t`, with a fundamental of `speed`.
+    pub(super) fn about(&mut self, set: &HarmonicSet, speed: f64, t: f64, degree: usize) {
+        self.degree = degree;
+        let (sin1, cos1) = (speed * t).sin_cos();
+        let (mut sine, mut cosine) = (0.0, 1.0);
+        let mut at = 0;
+        for ((order, _), (cosines, sines)) in set.places().zip(&mut self.series) {
+            while at < order {
+                (sine, cosine) = (sine * cos1 + cosine * sin1, cosine * cos1 - sine * sin1);
+                at += 1;
+            }
+            let nu = order as f64 * speed;
+            // Each two powers on the sign changes.
+            let (mut c, mut s) = (cosine, sine);
+            for (power, (cosines, sines)) in
+                cosines.iter_mut().zip(sines).enumerate().take(degree + 1)
+            {
+                (*cosines, *sines) = (c, s);
+                let factor = nu * INVERSE[power + 1];
+                (c, s) = (-factor * s, factor * c);
+            }
         }
-        if order == 0 {
-            out[0] += coefficients[place];
-            continue;
-        }
-        let nu = order as f64 * speed;
-        let (a, b) = (coefficients[place], coefficients[place + 1]);
-        // Value and slope over ν; each two powers on the sign changes.
-        let (mut even, mut odd) = (a * cosine + b * sine, b * cosine - a * sine);
-        for (power, out) in out[..=degree].iter_mut().enumerate() {
-            *out += even;
-            let next = odd * nu * INVERSE[power + 1];
-            odd = -even * nu * INVERSE[power + 1];
-            even = next;
+    }
+
+    /// The series of a twist with the given coefficients.
+    pub(super) fn sum(&self, set: &HarmonicSet, coefficients: &[f64], out: &mut Series) {
+        out.fill(0.0);
+        let length = self.degree + 1;
+        for ((order, place), (cosines, sines)) in set.places().zip(&self.series) {
+            if order == 0 {
+                out[0] += coefficients[place];
+                continue;
+            }
+            let (a, b) = (coefficients[place], coefficients[place + 1]);
+            let waves = cosines[..length].iter().zip(&sines[..length]);
+            for (out, (cosine, sine)) in out[..length].iter_mut().zip(waves) {
+                *out += a * cosine + b * sine;
+            }
         }
     }
 }
@@ -139,7 +157,9 @@ mod tests {
         let x = [0.3, 1.0, -0.4, 0.0, 0.2, 0.05, -0.1];
         let (speed, t, dt) = (2.0, 0.7, 0.08);
         let mut series = [0.0; MOST + 1];
-        expand(&set, &x, speed, t, MOST, &mut series);
+        let mut waves = Waves::new(&set);
+        waves.about(&set, speed, t, MOST);
+        waves.sum(&set, &x, &mut series);
         let exact = set.evaluate(&x, speed * (t + dt));
         assert!((value(&series, dt) - exact.0).abs() < 1e-14);
         let piece = Piece {

@@ -249,14 +249,15 @@ impl Reporter<'_> {
     /// the shaft that swings most, by harmonic balance and in closed form.
     fn folds(&mut self) {
         let closed = self.report.closed_form.as_ref().and_then(|form| form.scaling.first());
-        let closed = closed.map(|scaling| (scaling.mode, scaling.order));
+        let closed = closed.cloned();
         for parameter in planes::planes(self.line, self.report) {
-            let beside = closed.and_then(|(mode, order)| {
-                let own = (mode, Some(order));
+            let beside = closed.as_ref().and_then(|scaling| {
+                let own = (scaling.mode, Some(scaling.order));
                 self.plane(question(&parameter, None, ResonanceMethod::Averaged, own))
             });
             if self.report.resonance.is_some() {
-                let speeds = beside.as_ref().and_then(planes::speeds);
+                let plane = beside.as_ref().zip(closed.as_ref());
+                let speeds = plane.and_then(|(plane, scaling)| planes::speeds(plane, scaling));
                 let balance = ResonanceMethod::HarmonicBalance;
                 // A plane without any fold is a finding too; its warning says so.
                 let folds = self.plane(question(&parameter, speeds, balance, (1, None)));

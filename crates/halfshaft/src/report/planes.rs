@@ -14,15 +14,23 @@ pub(super) fn planes(line: &Driveline, report: &ReportResult) -> Vec<ParameterRa
     }
 }
 
-/// The speeds of a plane that hold all its curves, with as much again on both sides; `None` where it
-/// has no curve.
-pub(super) fn speeds(plane: &FoldsResult) -> Option<(f64, f64)> {
+/// Part of the speed of resonance at which a plane begins: the folds of the resonances of second and
+/// third order are above it. Below, ever narrower ones crowd together at torques that throw the line
+/// over its capacity, with dozens of harmonics each, and no picture resolves them.
+const LOWEST: f64 = 0.25;
+
+/// The speeds of a plane in closed form that hold all its curves, with as much again on both sides, as
+/// far as they belong to the resonance; `None` where it has no curve.
+pub(super) fn speeds(plane: &FoldsResult, scaling: &ModeScaling) -> Option<(f64, f64)> {
     let all = plane.curves.iter().flat_map(|curve| curve.values("frequency")).copied();
     let (low, high) = all
         .filter(|speed| speed.is_finite())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     let margin = (high - low).max(1e-3 * high);
-    (low <= high).then(|| ((low - margin).max(0.3 * low), high + margin))
+    let resonance = scaling.omega_1 / scaling.order;
+    // Curves may be all below that: then it is their own speeds that matter.
+    let lowest = (LOWEST * resonance).min(0.5 * high);
+    (low <= high).then(|| ((low - margin).max(0.3 * low).max(lowest), high + margin))
 }
 
 /// Planes about the model's own values.
