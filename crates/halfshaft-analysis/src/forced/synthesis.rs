@@ -3,12 +3,14 @@
 use std::f64::consts::TAU;
 
 /// Samples over a period of the highest order.
-const SAMPLES: usize = 32;
+const SAMPLES: usize = 20;
 /// Most samples over the common period.
 const MOST_SAMPLES: usize = 1 << 16;
 /// Newton steps on the slope from the best sample.
 const POLISHING: usize = 4;
-/// Terms of the Taylor series about a sample: half a step of the samples is a tenth of a radian of the
+/// Change of the phase that ends them, in steps of the samples: the value moves by its square.
+const SETTLED: f64 = 1e-6;
+/// Terms of the Taylor series about a sample: half a step of the samples is a sixth of a radian of the
 /// highest order, so the first one left out is below rounding.
 const TERMS: usize = 10;
 /// Greatest divisor of the lowest order that is tried for a common period.
@@ -161,7 +163,12 @@ impl Wave<'_> {
             if curvature == 0.0 {
                 break;
             }
-            shift = (shift - slope / curvature).clamp(-step, step);
+            let next = (shift - slope / curvature).clamp(-step, step);
+            let moved = (next - shift).abs();
+            shift = next;
+            if moved <= SETTLED * step {
+                break;
+            }
         }
         let [value, ..] = at(shift);
         if value.abs() >= series[0].abs() { value } else { series[0] }

@@ -348,7 +348,7 @@ pub(super) fn group_series(system: &mut HarmonicSystem, u: &[f64], place: Place)
 
 /// Values by column name.
 pub(super) fn named(equations: &EquationsOfMotion, values: &[ChannelValue]) -> Named<f64> {
-    let mut out = Named::new();
+    let mut out = Named::default();
     for ((name, _), value) in names(equations).into_iter().zip(values) {
         out.insert(format!("{name}.amplitude"), value.amplitude);
         out.insert(format!("{name}.mean"), value.mean);

@@ -116,7 +116,7 @@ impl<'s> Measured<'s> {
 
     fn point(&mut self, branch: &TracedBranch, sample: &Sample) -> Named<f64> {
         let values = self.values(sample, branch.base, branch.periods);
-        let mut all: Named<f64> = Named::new();
+        let mut all: Named<f64> = Named::default();
         all.extend(self.place(sample).into_iter().map(|(name, _, value)| (name, value)));
         all.extend(named(&self.setting.line.equations, &values));
         all

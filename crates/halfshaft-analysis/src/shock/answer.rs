@@ -117,7 +117,7 @@ impl ShockProblem<'_> {
             shaft: self.main_shaft(),
             variable: "twist and torque of each shaft; the twist is absolute".to_owned(),
             equilibrium: self.equilibrium(),
-            coefficients: Named::new(),
+            coefficients: Named::default(),
             comparison: Vec::new(),
             comparison_history: None,
         };

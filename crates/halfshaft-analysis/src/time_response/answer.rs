@@ -100,7 +100,7 @@ fn transient_metrics(
     let settled = equilibrium::after_ramps(equations);
     let settled = settled.and_then(|after| equilibrium::find_stable(&after).ok());
     let settled = settled.as_ref().unwrap_or(states).primary();
-    let (false, Some(settled)) = (lasting, settled) else { return Named::new() };
+    let (false, Some(settled)) = (lasting, settled) else { return Named::default() };
     let mut motion = Motion::new(equations, Active::all(None), true);
     let before = motion.kinematics(state).twists.clone();
     let torque = |(c, x): (&halfshaft_dynamics::Connection, &f64)| c.law.torque(*x);

@@ -12,7 +12,7 @@ pub(crate) fn title(analysis: &str) -> String {
         "static" => "Static wind-up and torque capacity",
         "modes" => "Modes of vibration",
         "campbell" => "Critical speeds",
-        "forced" => "Forced vibration, linear",
+        "forced" => "Forced linear vibration",
         "simulate" => "Simulation",
         "shock" => "Shock",
         "resonance" => "Resonance",

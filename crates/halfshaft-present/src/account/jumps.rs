@@ -102,7 +102,7 @@ mod tests {
     fn jumps_are_told_in_half_of_peak_to_peak() {
         let low = [(1.0, 0.5, true), (2.0, 1.0, true), (2.0, 1.5, false)];
         let high = [(2.0, 3.0, true), (3.0, 3.5, true)];
-        let mut values = Named::new();
+        let mut values = Named::default();
         values.insert("frequency".to_owned(), 2.3);
         values.insert("spring.twist.harmonic1".to_owned(), 1.08);
         values.insert("spring.twist.amplitude".to_owned(), 1.2);

@@ -63,6 +63,11 @@ const BASIN_SIDE: usize = 120;
 /// Relative tolerance of the motions in it.
 const BASIN_TOLERANCE: f64 = 1e-6;
 
+/// Degrees of freedom beyond which a report leaves motions out, which would take it minutes.
+const LONG: usize = 100;
+/// The same for a line whose laws are all linear, where they say little more than its modes.
+const LONG_LINEAR: usize = 40;
+
 /// Error of the waveform that is tolerated along fold curves: it is not seen in a figure.
 const FOLD_TOLERANCE: f64 = 1e-4;
 
@@ -77,6 +82,9 @@ impl Reporter<'_> {
             self.report.modes = Some(modes);
         }
         self.linear();
+        if self.is_long() {
+            return;
+        }
         let shock = ShockQuestion { compare: true, duration: 3.0, ..ShockQuestion::default() };
         if let Some(Answer::History(shock)) = self.ask("shock", &Question::Shock(shock)) {
             self.report.shock = Some(shock);
@@ -93,6 +101,33 @@ impl Reporter<'_> {
         }
     }
 
+    /// Whether the line is too long for the motions of a report; then that is told.
+    fn is_long(&mut self) -> bool {
+        let check = &self.report.check;
+        let freedom = check.degrees_of_freedom;
+        let linear = check.shafts.iter().all(|shaft| shaft.nonlinear_terms.is_empty())
+            && check.gears.iter().all(|gear| gear.mesh.is_none_or(|mesh| mesh.clearance == 0.0));
+        let most = if linear { LONG_LINEAR } else { LONG };
+        if freedom <= most {
+            return false;
+        }
+        let reason = if linear {
+            format!(
+                "the line is linear and has {freedom} degrees of freedom: see its forced vibration"
+            )
+        } else {
+            format!("motions of {freedom} degrees of freedom take long")
+        };
+        for (section, command) in [("shock", "shock"), ("resonance", "resonance")] {
+            self.report.missing.push(MissingSection {
+                section: section.to_owned(),
+                reason: reason.clone(),
+                advice: Some(format!("ask `halfshaft {command}` by itself")),
+            });
+        }
+        true
+    }
+
     /// Critical speeds and linear vibration, where something of the model follows a speed.
     fn linear(&mut self) {
         let driven = self
@@ -101,7 +136,8 @@ impl Reporter<'_> {
             .iter()
             .any(|torque| torque.harmonics.iter().any(|harmonic| harmonic.amplitude_nm != 0.0));
         let driven = driven || !self.line.engines().is_empty();
-        if !driven && self.line.whole().operating_rad_s.is_none() {
+        // Without modes there is no equilibrium to vibrate about, which has been told.
+        if self.report.modes.is_none() || (!driven && self.line.whole().operating_rad_s.is_none()) {
             return;
         }
         // A report is about the gear that the model is in; its modes are told gear by gear.

@@ -148,7 +148,7 @@ fn branch(rows: &[Row], x: (&str, &str), points: Vec<SpecialPoint>) -> Branch {
 }
 
 fn point(kind: SpecialKind, x: (&str, f64), a: f64) -> SpecialPoint {
-    let mut values = Named::new();
+    let mut values = Named::default();
     values.insert(x.0.to_owned(), x.1);
     values.insert("spring.twist.harmonic1".to_owned(), a);
     values.insert("spring.twist.amplitude".to_owned(), 1.01 * a);

@@ -157,7 +157,7 @@ mod tests {
     use crate::made::plane;
 
     fn cusp(kind: SpecialKind, speed: f64, value: f64) -> SpecialPoint {
-        let mut values = Named::new();
+        let mut values = Named::default();
         values.insert("frequency".to_owned(), speed);
         values.insert("drive.amplitude".to_owned(), value);
         SpecialPoint::new(kind, Status::Located, values)

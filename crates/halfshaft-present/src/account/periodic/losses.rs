@@ -98,7 +98,7 @@ mod tests {
     use crate::reading::Reading;
 
     fn point(kind: SpecialKind, x: f64, swing: f64) -> SpecialPoint {
-        let mut values = Named::new();
+        let mut values = Named::default();
         values.insert("frequency".to_owned(), x);
         values.insert("spring.twist.amplitude".to_owned(), swing);
         SpecialPoint::new(kind, Status::Located, values)
