@@ -258,10 +258,11 @@ fn numbers_of_engine(engine: &Engine) -> Vec<Number> {
     numbers
 }
 
-/// The numbers of a table that this version offers.
+/// The numbers of a table.
 fn numbers_of(table: &TableSpec, prefix: &str) -> Vec<Number> {
-    let offered = table.keys.iter().filter(|key| key.refused.is_none());
-    offered
+    table
+        .keys
+        .iter()
         .filter_map(|spec| {
             let (kind, sign) = spec.quantity()?;
             Some(Number { key: format!("{prefix}{}", spec.name), kind, sign })

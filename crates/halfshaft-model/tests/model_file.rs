@@ -135,10 +135,10 @@ fn each_mistake_points_at_its_text() {
         "",
     );
     assert_one_error(
-        &example_with("cubic = \"-642 N·m/rad³\"", "length = \"1 m\""),
-        "length",
-        "not available",
-        "takes the stiffness",
+        &example_with("cubic = \"-642 N·m/rad³\"", "kubic = \"-642 N·m/rad³\""),
+        "kubic",
+        "unknown key",
+        "did you mean \"cubic\"?",
     );
     assert_one_error(
         &example_with("shape = \"half-sine\"", "shape = \"halfsine\""),

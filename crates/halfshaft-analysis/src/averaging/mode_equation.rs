@@ -19,7 +19,7 @@ use super::responses::SlowFlow;
 use crate::equilibrium::RestState;
 use crate::error::AnalysisError;
 use crate::modal::ElasticMode;
-use crate::modal::elastic::ElasticSpace;
+use crate::modal::elastic::lowest_modes;
 use crate::polynomials_only::polynomial_laws;
 
 /// Name of the method in messages.
@@ -71,7 +71,7 @@ impl ModeEquation {
             let reason = format!("the amplitude of {} grows with the speed", source.name);
             return Err(AnalysisError::MethodDoesNotFit { method: METHOD, reason });
         }
-        let modes = ElasticSpace::new(equations).modes(equations, &rest.twists)?;
+        let modes = lowest_modes(equations, &rest.twists, mode)?;
         let shape = modes
             .get(mode - 1)
             .ok_or(AnalysisError::NoSuchMode { asked: mode, found: modes.len() })?;

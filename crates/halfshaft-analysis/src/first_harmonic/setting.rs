@@ -10,7 +10,7 @@ use super::problem::{METHOD, Problem};
 use super::responses::Finder;
 use crate::equilibrium;
 use crate::error::AnalysisError;
-use crate::modal::elastic::ElasticSpace;
+use crate::modal::elastic::lowest_modes;
 
 /// A mode of the line about rest, as far as a range of speeds needs it.
 #[derive(Clone, Debug)]
@@ -68,13 +68,16 @@ pub(super) fn resonance(
     about(&taut, &twists, mode)?.ok_or_else(no_resonance)
 }
 
+/// Modes that are looked at for what counts as no stiffness at all.
+const LOOKED_AT: usize = 20;
+
 /// The modes about given twists; `None` where the asked one does not vibrate.
 fn about(
     equations: &EquationsOfMotion,
     twists: &[f64],
     mode: usize,
 ) -> Result<Option<Resonance>, AnalysisError> {
-    let modes = ElasticSpace::new(equations).modes(equations, twists)?;
+    let modes = lowest_modes(equations, twists, mode.max(LOOKED_AT))?;
     let found = modes.len();
     let asked = modes.get(mode - 1).ok_or(AnalysisError::NoSuchMode { asked: mode, found })?;
     let largest = modes.iter().map(|mode| mode.eigenvalue).fold(0.0, f64::max);

@@ -25,7 +25,7 @@ use super::system::{HarmonicSystem, Place};
 use super::tracer::{LEAST_HARMONICS, MOST_HARMONICS, length, refit};
 use crate::equilibrium::RestStates;
 use crate::error::AnalysisError;
-use crate::modal::elastic::ElasticSpace;
+use crate::modal::elastic::lowest_modes;
 
 /// A point of a backbone.
 #[derive(Clone, Debug)]
@@ -274,6 +274,9 @@ fn undamped(equations: &EquationsOfMotion) -> EquationsOfMotion {
     free
 }
 
+/// Modes that are looked at, the lowest.
+const MOST_MODES: usize = 60;
+
 /// Backbones of all modes that resonate in the range: each of the undamped line (with its `energy`),
 /// then of the damped one in phase resonance (with its `drive`).
 pub(super) fn backbones(
@@ -284,8 +287,7 @@ pub(super) fn backbones(
 ) -> Result<Vec<Table>, AnalysisError> {
     let Some(rest) = states.primary() else { return Ok(Vec::new()) };
     let equations = &setting.line.equations;
-    let space = ElasticSpace::new(equations);
-    let modes = space.modes(equations, &rest.twists)?;
+    let modes = lowest_modes(equations, &rest.twists, MOST_MODES)?;
     let mut tables = Vec::new();
     let free = Rc::new(undamped(equations));
     for order in setting.orders() {

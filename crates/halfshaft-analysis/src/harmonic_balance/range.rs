@@ -5,7 +5,7 @@ use halfshaft_dynamics::EquationsOfMotion;
 use crate::averaging::{ModeEquation, default_window};
 use crate::equilibrium::RestStates;
 use crate::error::AnalysisError;
-use crate::modal::elastic::ElasticSpace;
+use crate::modal::elastic::lowest_modes;
 
 /// Range about the resonances of an elastic mode (from 1) with all orders of the torques.
 pub(super) fn default_range(
@@ -39,12 +39,11 @@ fn about(
     mode: usize,
     order: f64,
 ) -> Result<(f64, f64), AnalysisError> {
-    let space = ElasticSpace::new(equations);
-    let squares = space.eigenvalues(equations, twists)?;
-    let Some(square) = squares.get(mode - 1) else {
-        return Err(AnalysisError::NoSuchMode { asked: mode, found: squares.len() });
+    let modes = lowest_modes(equations, twists, mode)?;
+    let Some(asked) = modes.get(mode - 1) else {
+        return Err(AnalysisError::NoSuchMode { asked: mode, found: modes.len() });
     };
-    let natural = square.max(0.0).sqrt() / order;
+    let natural = asked.eigenvalue.max(0.0).sqrt() / order;
     if natural == 0.0 {
         return Err(AnalysisError::MethodDoesNotFit {
             method: "harmonic-balance",

@@ -63,16 +63,6 @@ impl ElasticSpace {
         Self { root_inertia, reflection }
     }
 
-    /// Squares of the natural frequencies about given twists, ascending.
-    pub(crate) fn eigenvalues(
-        &self,
-        equations: &EquationsOfMotion,
-        twists: &[f64],
-    ) -> Result<Vec<f64>, AnalysisError> {
-        let matrix = self.reduced(&equations.tangent_stiffness(twists));
-        Ok(zeros_told(symmetric_eigen(&matrix).doing("computing natural frequencies")?.values))
-    }
-
     /// Undamped modes about given twists, by ascending eigenvalue.
     pub(crate) fn modes(
         &self,

@@ -84,7 +84,7 @@ fn check_table(
             checked.strays |= matches!(value.get_ref(), DeValue::Array(_) | DeValue::Table(_));
             continue;
         };
-        match check_key(key_spec, key.span(), value, found) {
+        match check_key(key_spec, value, found) {
             Some(value_checked) => {
                 let entry = Entry { span: value.span(), value: value_checked };
                 checked.entries.push((key_spec.name, entry));
@@ -136,20 +136,9 @@ fn example_line(key: &KeySpec) -> String {
 
 fn check_key(
     key: &'static KeySpec,
-    key_span: Range<usize>,
     value: &Spanned<DeValue<'_>>,
     found: &mut Diagnostics,
 ) -> Option<Checked> {
-    if let Some(why) = key.refused {
-        found.push(
-            Diagnostic::error(
-                key_span,
-                format!("\"{}\" is not available in this version", key.name),
-            )
-            .hint(why),
-        );
-        return None;
-    }
     match key.value {
         ValueSpec::Text => text(key, value, found).map(Checked::Text),
         ValueSpec::Node { ground } => node(key, value, ground, found).map(Checked::Text),

@@ -19,7 +19,7 @@ fn section(page: &mut String, spec: &TableSpec, heading: &str) {
         let _ = write!(page, "{}\n\n", one_line(spec.doc));
     }
     page.push_str("| key | value | meaning |\n|---|---|---|\n");
-    for key in spec.keys.iter().filter(|key| key.refused.is_none()) {
+    for key in spec.keys {
         let required = if key.required { " **(required)**" } else { "" };
         let _ = writeln!(
             page,
@@ -27,15 +27,6 @@ fn section(page: &mut String, spec: &TableSpec, heading: &str) {
             key.name,
             value(&key.value),
             one_line(key.doc)
-        );
-    }
-    let refused: Vec<_> = spec.keys.iter().filter(|key| key.refused.is_some()).collect();
-    if !refused.is_empty() {
-        let names: Vec<_> = refused.iter().map(|key| format!("`{}`", key.name)).collect();
-        let _ = write!(
-            page,
-            "\nThe format also has {}; this version refuses them by name.\n",
-            names.join(", ")
         );
     }
     for (index, key) in spec.keys.iter().enumerate() {

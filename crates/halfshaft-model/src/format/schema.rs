@@ -23,7 +23,7 @@ pub fn json_schema(spec: &TableSpec, title: &str) -> Value {
 }
 
 fn table(spec: &TableSpec) -> Value {
-    let offered = spec.keys.iter().filter(|key| key.refused.is_none());
+    let offered = spec.keys.iter();
     let properties: Map<String, Value> =
         offered.map(|key| (key.name.to_owned(), property(key))).collect();
     let required: Vec<&str> =

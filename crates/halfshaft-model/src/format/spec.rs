@@ -63,26 +63,18 @@ pub struct KeySpec {
     pub required: bool,
     /// Meaning, with formula and default; one sentence or two.
     pub doc: &'static str,
-    /// Why this version refuses the key although the format has it, if it does.
-    pub refused: Option<&'static str>,
 }
 
 impl KeySpec {
     /// An optional key.
     pub const fn new(name: &'static str, value: ValueSpec, doc: &'static str) -> Self {
-        Self { name, value, required: false, doc, refused: None }
+        Self { name, value, required: false, doc }
     }
 
     /// The same, required.
     #[must_use]
     pub const fn required(self) -> Self {
         Self { required: true, ..self }
-    }
-
-    /// The same, known to the format but refused by this version for the reason given.
-    #[must_use]
-    pub const fn refused(self, why: &'static str) -> Self {
-        Self { refused: Some(why), ..self }
     }
 
     /// The kind of quantity, where the key holds one.
