@@ -24,7 +24,15 @@ fn answers() -> Vec<Answer> {
         answers.push(ask(line, &question, &Silent).expect("answered"));
     };
     let plain = QuestionText::default;
-    for verb in [Verb::Check, Verb::Static, Verb::Modes, Verb::Simulate, Verb::Shock] {
+    for verb in [
+        Verb::Check,
+        Verb::Static,
+        Verb::Modes,
+        Verb::Campbell,
+        Verb::Forced,
+        Verb::Simulate,
+        Verb::Shock,
+    ] {
         put(&example, verb, plain());
     }
     put(&example, Verb::Shock, QuestionText { compare: true, ..plain() });

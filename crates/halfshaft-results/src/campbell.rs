@@ -19,14 +19,14 @@ pub struct CriticalSpeed {
     #[serde(deserialize_with = "crate::number::read")]
     pub frequency: f64,
     /// Distance from the operating range over its nearer end: 0 inside; `None` without a range.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub margin: Option<f64>,
     /// The shaft that the mode would load most there.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub shaft: Option<String>,
     /// Amplitude of that shaft's torque by this order and mode alone, N·m; `None` without damping
     /// or excitation.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub torque: Option<f64>,
 }
 
@@ -55,12 +55,13 @@ pub struct CampbellResult {
     #[serde(flatten)]
     pub header: Header,
     /// Range of the excitation speed Ω, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
     pub frequency: (f64, f64),
     /// Orders, ascending.
     #[serde(deserialize_with = "crate::number::read")]
     pub orders: Vec<f64>,
     /// Operating range, rad/s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "crate::number::read")]
     pub operating: Option<(f64, f64)>,
     /// The line as it is, or each gear of a gearbox that lists its ratios.
     pub gears: Vec<CampbellGear>,

@@ -57,10 +57,10 @@ pub struct ModesResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gear {
     /// Name of the gearbox; `None` for the line as it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub gearbox: Option<String>,
     /// Its ratio.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub ratio: Option<f64>,
 }
 
