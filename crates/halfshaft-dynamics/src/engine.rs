@@ -162,7 +162,7 @@ fn mass_torque(crank: &CrankGear, highest: f64) -> Vec<CylinderOrder> {
 }
 
 /// Speed at which torques of oscillating masses are told, rad/s: 1000 rpm.
-pub(crate) const REFERENCE_SPEED: f64 = 1000.0 * PI / 30.0;
+pub const REFERENCE_SPEED: f64 = 1000.0 * PI / 30.0;
 
 /// A torque of an engine on one node.
 pub(crate) struct EngineTorque {

@@ -223,6 +223,13 @@ impl EquationsOfMotion {
         self.twist(index, &direction)
     }
 
+    /// The same of a connection by the inertias at its ends that have some, 1/(kg·m²).
+    pub fn compliance_of_heavy(&self, connection: &Connection) -> f64 {
+        let ends = [connection.from, connection.to].into_iter().flatten();
+        let heavy = ends.filter(|(group, _)| self.inertia[*group] > 0.0);
+        heavy.map(|(group, ratio)| ratio * ratio / self.inertia[group]).sum()
+    }
+
     /// Jumps of the rates of a [`Motion`](crate::Motion)'s coordinates by impulses on the groups, N·m·s.
     pub fn rate_jumps(&self, impulses: &[f64]) -> Vec<f64> {
         let speeds: Vec<f64> = impulses.iter().zip(&self.inertia).map(|(p, m)| p / m).collect();
@@ -254,7 +261,7 @@ fn node_places(line: &Driveline, topology: &Topology) -> Vec<NodePlace> {
 
 /// Shafts and then elastic meshes of gears, as in the network.
 fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
-    let loss = |own: f64| if own > 0.0 { own } else { line.whole().loss_factor };
+    let loss = |own: Option<f64>| own.unwrap_or(line.whole().loss_factor);
     let shafts = line.shafts().iter().map(|shaft| Connection {
         name: shaft.name.clone(),
         from: None,
@@ -279,7 +286,7 @@ fn connections(line: &Driveline, network: &Network) -> Vec<Connection> {
         damps_in_gap: gear.damps_in_gap,
         friction: None,
         engagement: None,
-        loss_factor: loss(0.0),
+        loss_factor: loss(None),
         inertance: 0.0,
     });
     let placed = |(connection, [from, to]): (Connection, &[End; 2])| Connection {

@@ -64,7 +64,7 @@ pub struct EngineOrders {
     #[serde(deserialize_with = "crate::number::read")]
     pub firing_angles: Vec<f64>,
     /// Orders of one cylinder over its own crank angle α: `order`, and `pressure`, `gas` and `mass`
-    /// as modulus with `.phase`, of `modulus · cos(order α + phase)`; `mass` at Ω = 1 rad/s.
+    /// as modulus with `.phase`, of `modulus · cos(order α + phase)`; `mass` at Ω = 1000 rpm.
     pub table: Table,
 }
 

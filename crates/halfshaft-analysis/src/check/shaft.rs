@@ -29,7 +29,8 @@ pub(super) fn shaft(
         stiffness,
         damping: shaft.damping_nm_s_per_rad,
         nonlinear_terms: terms,
-        loss_factor: connection.loss_factor,
+        // A damper without stiffness has nothing to lose.
+        loss_factor: if stiffness == 0.0 { 0.0 } else { connection.loss_factor },
         bar: written.and_then(|written| written.dimensions.as_ref()).map(bar),
     }
 }

@@ -7,7 +7,7 @@ use halfshaft_results::{ForcedGear, ForcedResult, Gear, Header, Reason, Terminat
 
 use super::channels::channels;
 use super::engines;
-use super::speeds::speeds;
+use super::speeds::{self, speeds};
 use super::sweep::Sweep;
 use super::synthesis::multiples;
 use crate::campbell::{default_range, gear_words};
@@ -49,6 +49,11 @@ pub(crate) fn solve(
         };
         told.push(in_gear(gear, &line, &vibration, question, &orders, observer)?);
         undamped(&vibration, &mut header);
+        if let Some(warning) = speeds::too_wide(&vibration, question, &orders)?
+            && !header.warnings.contains(&warning)
+        {
+            header.warnings.push(warning);
+        }
     }
     Ok(ForcedResult { header, orders, engines: engines::tables(line), gears: told })
 }
@@ -74,7 +79,7 @@ fn in_gear(
         let advice = "take fewer --points, or name the shafts and nodes with --shaft and --node";
         return Err(AnalysisError::TooLarge { values, most: MOST_VALUES, advice });
     }
-    let mut sweep = Sweep::new(vibration, orders, channels);
+    let mut sweep = Sweep::new(vibration, orders, channels, question.shafts.as_deref());
     sweep.run(&speeds, observer)?;
     Ok(sweep.into_result(gear))
 }

@@ -1,6 +1,6 @@
 //! The orders of engines as tables.
 
-use halfshaft_dynamics::engine::{CylinderOrder, cylinder_orders};
+use halfshaft_dynamics::engine::{CylinderOrder, REFERENCE_SPEED, cylinder_orders};
 use halfshaft_model::Driveline;
 use halfshaft_numerics::Complex;
 use halfshaft_results::{Column, EngineOrders, Table};
@@ -24,7 +24,9 @@ pub(super) fn tables(line: &Driveline) -> Vec<EngineOrders> {
                 ("mass", "N·m", &orders.mass),
             ];
             for (name, unit, list) in parts.into_iter().filter(|(_, _, list)| !list.is_empty()) {
-                let values: Vec<Complex> = known.iter().map(|order| value(list, *order)).collect();
+                let factor = if name == "mass" { REFERENCE_SPEED.powi(2) } else { 1.0 };
+                let at = |order: &f64| value(list, *order).scaled(factor);
+                let values: Vec<Complex> = known.iter().map(at).collect();
                 let moduli = values.iter().map(|value| value.modulus()).collect();
                 let phases = values.iter().map(|value| value.argument()).collect();
                 columns.push(Column::new(name, unit, moduli));

@@ -58,3 +58,29 @@ pub(super) fn speeds(
     speeds.dedup();
     Ok(speeds)
 }
+
+/// A warning where speeds that someone has spaced may step over a peak.
+pub(super) fn too_wide(
+    vibration: &Vibration,
+    question: &ForcedQuestion,
+    orders: &[f64],
+) -> Result<Option<String>, AnalysisError> {
+    let (Some(points), Some((from, to))) = (question.points, question.frequency) else {
+        return Ok(None);
+    };
+    #[expect(clippy::cast_precision_loss, reason = "bounded")]
+    let step = (to - from) / points.max(2).saturating_sub(1) as f64;
+    let modes = vibration.modes(MODES)?;
+    let pairs = vibration.damped(&modes)?.elastic;
+    let narrow = modes.iter().zip(pairs).any(|(mode, pair)| {
+        let natural = mode.eigenvalue.max(0.0).sqrt();
+        let critical = orders.iter().map(|order| natural / order);
+        let width = damping_ratio(pair).abs();
+        critical.into_iter().any(|speed| speed > from && speed < to && speed * width < step)
+    });
+    Ok(narrow.then(|| {
+        "some peaks are narrower than the step between the speeds: leave --points out, or take more, \
+         to see how high they are"
+            .to_owned()
+    }))
+}

@@ -41,10 +41,16 @@ enum Damper {
 }
 
 impl<'v> Sweep<'v> {
-    pub(super) fn new(vibration: &'v Vibration, orders: &'v [f64], channels: Vec<Channel>) -> Self {
+    pub(super) fn new(
+        vibration: &'v Vibration,
+        orders: &'v [f64],
+        channels: Vec<Channel>,
+        shafts: Option<&[String]>,
+    ) -> Self {
         let equations = &vibration.equations;
         let lossy = |(_, c): &(usize, &halfshaft_dynamics::Connection)| {
-            c.damping > 0.0 || c.loss_factor > 0.0
+            let told = shafts.is_none_or(|shafts| shafts.contains(&c.name));
+            told && (c.damping > 0.0 || c.loss_factor > 0.0)
         };
         let connections = equations.connections.iter().enumerate().filter(lossy);
         let connections = connections.map(|(index, _)| Damper::Connection(index));

@@ -208,7 +208,13 @@ fn elastic_mode(
     if mode.eigenvalue < 0.0 {
         label = format!("unstable, moves away without vibrating: {label}");
     } else if mode.eigenvalue == 0.0 {
-        label = format!("free play, no vibration: {label}");
+        label = if strain.iter().all(|share| *share == 0.0) {
+            let moving = |a: &(&String, &f64), b: &(&String, &f64)| a.1.abs().total_cmp(&b.1.abs());
+            let most = shape.iter().max_by(moving).map_or("", |(node, _)| node.as_str());
+            format!("no vibration: {most} turns freely")
+        } else {
+            format!("free play, no vibration: {label}")
+        };
     }
     Mode {
         frequency,

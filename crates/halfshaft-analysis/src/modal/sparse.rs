@@ -28,6 +28,9 @@ pub(crate) fn terms(equations: &EquationsOfMotion, twists: &[f64]) -> Vec<Pencil
     connections.chain(groups).collect()
 }
 
+/// Squared frequency over the largest local one that is rounding.
+const NOTHING: f64 = 1e-20;
+
 /// Number of elastic modes: one for each group with inertia, but for turning as a whole.
 pub(crate) fn elastic_count(equations: &EquationsOfMotion) -> usize {
     let heavy = equations.inertia.iter().filter(|inertia| **inertia > 0.0).count();
@@ -51,10 +54,15 @@ pub(super) fn lowest(
     let known: Vec<Vec<f64>> = rigid_shape(equations).into_iter().collect();
     let count = count.min(elastic_count(equations));
     let pairs = pencil.lowest(count, &known).doing("computing natural frequencies")?;
+    let largest = equations.connections.iter().zip(twists).map(|(connection, x)| {
+        connection.law.stiffness(*x).abs() * equations.compliance_of_heavy(connection)
+    });
+    let nothing = NOTHING * largest.fold(0.0, f64::max);
     let mode = |pair: halfshaft_numerics::pencil::EigenPair| {
         let twist = |index| equations.twist(index, &pair.vector);
         ElasticMode {
-            eigenvalue: pair.value,
+            // What twists nothing, like the ring of a viscous damper, is told as just that.
+            eigenvalue: if pair.value.abs() <= nothing { 0.0 } else { pair.value },
             twists: (0..equations.connections.len()).map(twist).collect(),
             shape: pair.vector,
         }

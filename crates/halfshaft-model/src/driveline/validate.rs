@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::Driveline;
 use super::connection::check_connection;
 use super::places::Places;
-use crate::diagnostic::{Diagnostic, Diagnostics, with_article};
+use crate::diagnostic::{Diagnostic, Diagnostics, did_you_mean, with_article};
 use crate::elements::{MeanTorque, TorqueTable};
 
 /// Adds every finding about the line as a whole to `found`.
@@ -18,7 +18,29 @@ pub(crate) fn validate(line: &Driveline, places: &Places<'_>, found: &mut Diagno
     check_laws(line, places, found);
     check_torques(line, places, found);
     check_engines(line, places, found);
-    check_connection(&line.expanded(), places, found);
+    if dampers_sit(line, places, found) {
+        check_connection(&line.expanded(), places, found);
+    }
+}
+
+/// Whether every damper sits on a node that something else brings; tells those that do not.
+fn dampers_sit(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) -> bool {
+    let inertias = line.inertias.iter().map(|e| e.name.as_str());
+    let gears = line.gears.iter().flat_map(|gear| [gear.input.as_str(), gear.output.as_str()]);
+    let shafts = line.shafts.iter().flat_map(|shaft| [shaft.from.as_str(), shaft.to.as_str()]);
+    let known: Vec<&str> = inertias.chain(gears).chain(shafts).collect();
+    let lost = |(index, damper): &(usize, &crate::elements::Damper)| {
+        places.has("damper", *index, "on") && !known.contains(&damper.on.as_str())
+    };
+    let mut all = true;
+    for (index, damper) in line.dampers.iter().enumerate().filter(lost) {
+        all = false;
+        let hint = did_you_mean(&damper.on, known.iter().copied());
+        let message = format!("no node is named \"{}\"", damper.on);
+        let place = places.key("damper", index, "on");
+        found.push(Diagnostic::error(place, message).maybe_hint(hint));
+    }
+    all
 }
 
 /// Element names with the list and index that they come from.
@@ -48,6 +70,7 @@ fn check_engines(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics)
         if let Some(Err((message, hint))) =
             engine.table().map(|table| table.cycle(engine.revolutions()))
             && places.is_sound("engine", index)
+            && engine.strokes != 3
         {
             let key = if engine.torque.is_some() { "torque" } else { "pressure" };
             found.push(Diagnostic::error(places.key("engine", index, key), message).hint(hint));

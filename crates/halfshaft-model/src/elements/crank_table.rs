@@ -62,6 +62,26 @@ const MOST_POINTS: usize = 10_000;
 /// Share of a step by which angles may be off an equal spacing: files are written with few digits.
 const UNEVEN: f64 = 1e-3;
 
+/// Where the steps between ascending angles change, if they do.
+fn uneven(angles: &[f64]) -> Option<String> {
+    let mut steps: Vec<f64> = angles.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let at = |usual: f64| steps.iter().position(|step| (step - usual).abs() > UNEVEN * usual.abs());
+    let mut sorted = steps.clone();
+    sorted.sort_by(f64::total_cmp);
+    let usual = sorted.get(sorted.len() / 2).copied().filter(|usual| *usual > 0.0)?;
+    let at = at(usual)?;
+    let step = steps.swap_remove(at);
+    Some(format!(
+        "the crank angles are not equally spaced: from point {} to {} ({:.3} degrees) by {:.3} degrees, \
+         elsewhere by {:.3}",
+        at + 1,
+        at + 2,
+        angles[at].to_degrees(),
+        step.to_degrees(),
+        usual.to_degrees()
+    ))
+}
+
 impl CrankTable {
     pub(super) fn read(table: &CheckedTable, column: &str) -> Self {
         Self { angle_rad: table.numbers("angle").to_vec(), values: table.numbers(column).to_vec() }
@@ -89,12 +109,7 @@ impl CrankTable {
         let cycle = revolutions * TAU;
         #[expect(clippy::cast_precision_loss, reason = "a few thousand points")]
         let step = (last - first) / (angles.len() - 1) as f64;
-        #[expect(clippy::cast_precision_loss, reason = "a few thousand points")]
-        let uneven = angles.iter().enumerate().position(|(index, angle)| {
-            (angle - first - index as f64 * step).abs() > UNEVEN * step.abs()
-        });
-        if let Some(at) = uneven.filter(|_| step > 0.0) {
-            let message = format!("the crank angles are not equally spaced at point {}", at + 1);
+        if let Some(message) = uneven(angles) {
             return Err((message, "give the cycle in equal steps of the crank angle"));
         }
         if angles.len() < 4 || step <= 0.0 {

@@ -85,7 +85,7 @@ impl Damper {
     pub(crate) fn coupling(&self) -> Shaft {
         Shaft {
             damping_nm_s_per_rad: self.damping_nm_s_per_rad,
-            loss_factor: self.loss_factor,
+            loss_factor: Some(self.loss_factor),
             ..Shaft::linear(
                 self.name.clone(),
                 [self.on.clone(), self.ring().name],

@@ -73,8 +73,9 @@ pub struct Shaft {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub engagement: Option<Engagement>,
     /// Loss factor η of hysteretic damping, for linear vibrations: stiffness `k (1 + i η)`.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub loss_factor: f64,
+    /// `None` for that of the line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loss_factor: Option<f64>,
     /// Round bar of which the stiffness and the inertia are those, in place of a law.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dimensions: Option<Dimensions>,
@@ -222,7 +223,7 @@ pub static SHAFT: TableSpec = TableSpec {
             QuantityKind::Number,
             Sign::NonNegative,
             "Loss factor of hysteretic damping: stiffness · (1 + i loss_factor) in `forced`, and half of it \
-             as damping ratio of a mode that only this shaft twists in. Default 0.",
+             as damping ratio of a mode that only this shaft twists in. Default that of the line.",
         ),
         DIMENSIONS[0],
         DIMENSIONS[1],
@@ -263,7 +264,7 @@ impl Shaft {
             friction_nm: table.number_or("friction", 0.0),
             friction_speed_rad_s: table.number_or("friction_speed", FRICTION_SPEED_RAD_S),
             engagement: table.table("engagement").map(Engagement::read),
-            loss_factor: table.number_or("loss_factor", 0.0),
+            loss_factor: table.number("loss_factor"),
             dimensions: table.mentions("length").then(|| Dimensions::read(table)),
             inertance_kg_m2: 0.0,
         }
@@ -291,7 +292,7 @@ impl Shaft {
             friction_nm: 0.0,
             friction_speed_rad_s: FRICTION_SPEED_RAD_S,
             engagement: None,
-            loss_factor: 0.0,
+            loss_factor: None,
             dimensions: None,
             inertance_kg_m2: 0.0,
         }
@@ -343,7 +344,7 @@ impl Shaft {
         match key {
             "damping" => Some(&mut self.damping_nm_s_per_rad),
             "preload" => Some(&mut self.preload_nm),
-            "loss_factor" => Some(&mut self.loss_factor),
+            "loss_factor" => Some(self.loss_factor.get_or_insert(0.0)),
             "friction" => Some(&mut self.friction_nm).filter(|_| self.dimensions.is_none()),
             "friction_speed" => Some(&mut self.friction_speed_rad_s),
             "contact" => self.contact_rad.as_mut(),

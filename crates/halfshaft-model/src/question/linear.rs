@@ -138,13 +138,31 @@ impl Reader<'_> {
         if known.contains(&written) {
             return Some(vec![written.to_owned()]);
         }
-        let asked: Vec<&str> = written.split(',').map(str::trim).collect();
+        // The name of a bar stands for all of its pieces.
+        let pieces = |name: &'_ str| -> Vec<String> {
+            let beginning = format!("{name}.");
+            let numbered = |known: &&&str| {
+                let piece = known.strip_prefix(beginning.as_str()).unwrap_or("");
+                !piece.is_empty() && piece.chars().all(|c| c.is_ascii_digit())
+            };
+            known.iter().filter(numbered).map(|piece| (*piece).to_owned()).collect()
+        };
+        let bars = self.line.shafts.iter().filter(|shaft| shaft.dimensions.is_some());
+        let bars: Vec<&str> = bars.map(|shaft| shaft.name.as_str()).collect();
+        let whole: Vec<&str> = if bars.contains(&written) {
+            vec![written]
+        } else {
+            written.split(',').map(str::trim).collect()
+        };
+        let (bars, asked): (Vec<&str>, Vec<&str>) =
+            whole.into_iter().partition(|name| bars.contains(name) && !known.contains(name));
         for name in asked.iter().filter(|name| !known.contains(name)) {
             let hint = did_you_mean(name, known.iter().copied())
                 .unwrap_or_else(|| format!("choose from {}", known.join(", ")));
             let message = format!("no {option} is named \"{name}\"");
             self.errors.push(OptionError::new(option, written, message, hint));
         }
-        Some(asked.into_iter().map(str::to_owned).collect())
+        let single = asked.into_iter().map(str::to_owned);
+        Some(single.chain(bars.into_iter().flat_map(pieces)).collect())
     }
 }

@@ -3,7 +3,7 @@
 use halfshaft_results::{CampbellGear, CampbellResult, CriticalSpeed, Gear};
 
 use super::{Account, Grid, Tone};
-use crate::words::{counted, number, percent, plain, quantity};
+use crate::words::{capital, counted, number, percent, plain, quantity};
 
 /// Rows of a table at most.
 const MOST_ROWS: usize = 30;
@@ -66,10 +66,11 @@ fn opening(result: &CampbellResult) -> Vec<String> {
         result.orders.iter().take(12).map(|order| number(*order, 4)).collect();
     let more = if result.orders.len() > 12 { " and so on" } else { "" };
     let mut sentences = vec![format!(
-        "{} between {} and {} rpm, orders {}{more}.",
-        counted(all.len(), "critical speed", "critical speeds"),
+        "{} between {} and {} rpm, {} {}{more}.",
+        capital(&counted(all.len(), "critical speed", "critical speeds")),
         number(result.frequency.0 * RPM, 4),
         number(result.frequency.1 * RPM, 4),
+        if orders.len() == 1 { "order" } else { "orders" },
         orders.join(", ")
     )];
     if let Some((from, to)) = result.operating {
@@ -88,11 +89,17 @@ fn opening(result: &CampbellResult) -> Vec<String> {
             percent(CLOSE, 2),
         ));
     }
-    let relevant = all.iter().filter(|speed| speed.margin.is_none_or(|margin| margin < CLOSE));
+    let inside = all.iter().any(|speed| speed.margin == Some(0.0) && speed.torque.is_some());
+    let most = if inside { f64::MIN_POSITIVE } else { CLOSE };
+    let relevant = all.iter().filter(|speed| speed.margin.is_none_or(|margin| margin < most));
     let loudest = relevant.filter_map(|speed| Some((speed, speed.torque?)));
     if let Some((speed, torque)) = loudest.max_by(|a, b| a.1.total_cmp(&b.1)) {
         let shaft = speed.shaft.as_deref().map_or_else(String::new, plain);
-        let there = if result.operating.is_some() { " there or near" } else { "" };
+        let there = match result.operating {
+            Some(_) if inside => " there",
+            Some(_) => " near it",
+            None => "",
+        };
         sentences.push(format!(
             "The strongest{there} is order {} on mode {} at {} rpm: alone it loads the {shaft} with ±{}.",
             number(speed.order, 4),

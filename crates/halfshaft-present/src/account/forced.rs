@@ -59,16 +59,27 @@ fn opening(result: &ForcedResult) -> Vec<String> {
             String::new()
         };
         sentences.push(format!(
-            "The largest vibratory torque is ±{} in the {} at {} rpm{by}.",
+            "The largest vibratory torque is ±{} in the {} at {} rpm{}{by}.",
             quantity(peak.amplitude, 4, "N·m"),
             owner(peak),
             number(peak.speed * RPM, 4),
+            at_the_end(result, peak),
         ));
     }
     if result.gears.len() > 1 {
         sentences.push(format!("Told for {}.", counted(result.gears.len(), "gear", "gears")));
     }
     sentences
+}
+
+/// Says that a peak is none, but where the speeds end.
+fn at_the_end(result: &ForcedResult, peak: &ForcedPeak) -> &'static str {
+    let ends = result.gears.iter().flat_map(|gear| {
+        let speeds = gear.table.values("frequency");
+        [speeds.first().copied(), speeds.last().copied()]
+    });
+    let end = ends.flatten().any(|end| end == peak.speed);
+    if end { " (an end of the range)" } else { "" }
 }
 
 fn by_gear(result: &ForcedResult) -> Grid {
@@ -113,7 +124,7 @@ fn engine_orders(engine: &EngineOrders) -> Grid {
     let column = |name: &str| engine.table.values(name).to_vec();
     let mut grid = Grid::new(format!("Orders of one cylinder of {}", plain(&engine.engine)))
         .numbers("order", "", 4, column("order").into_iter().map(Some));
-    for (name, title, unit) in [("gas", "gas torque", "N·m"), ("mass", "masses at 1 rad/s", "N·m")]
+    for (name, title, unit) in [("gas", "gas torque", "N·m"), ("mass", "masses at 1000 rpm", "N·m")]
     {
         let values = column(name);
         if !values.is_empty() {

@@ -46,7 +46,8 @@ pub(crate) fn elastic(result: &ModesResult) -> impl Iterator<Item = &Mode> {
 fn opening(result: &ModesResult) -> Vec<String> {
     let elastic: Vec<&Mode> = elastic(result).collect();
     let rigid = result.modes.len() > elastic.len();
-    let Some(lowest) = elastic.first() else {
+    let oscillating = elastic.iter().find(|mode| mode.damped_frequency > 0.0);
+    let Some(lowest) = oscillating.or(elastic.first()) else {
         return vec!["Nothing twists: the line has no mode of vibration.".to_owned()];
     };
     let also = if rigid { ", besides turning as a whole" } else { "" };
@@ -57,7 +58,12 @@ fn opening(result: &ModesResult) -> Vec<String> {
     }];
     if lowest.damped_frequency > 0.0 {
         sentences.push(format!(
-            "The lowest stands at {} with {} of critical damping: {}.",
+            "The lowest{} stands at {} with {} of critical damping: {}.",
+            if elastic.first().is_some_and(|mode| mode.damped_frequency > 0.0) {
+                ""
+            } else {
+                " that oscillates"
+            },
             frequency_words(lowest.frequency),
             percent(lowest.damping_ratio, 3),
             plain(&lowest.label)
