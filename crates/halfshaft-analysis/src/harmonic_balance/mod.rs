@@ -7,7 +7,7 @@
 //! | `system`, `kinks` | residual and Jacobian (alternating frequency-time; from kink to kink) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer`, `closing` | pseudo-arclength continuation |
-//! | `series`, `switching`, `panels`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
+//! | `series`, `tangents`, `switching`, `lanes`, `panels`, `structure`, `whole_line`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
 //! | `exact` | branches of lines with kinks, by shooting |
@@ -70,6 +70,7 @@ mod strobed;
 mod structure;
 mod switching;
 mod system;
+mod tangents;
 #[cfg(test)]
 mod tests;
 mod tips;

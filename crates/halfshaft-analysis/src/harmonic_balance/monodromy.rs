@@ -21,11 +21,12 @@ use halfshaft_numerics::Complex;
 use halfshaft_numerics::dense::{Matrix, eigenvalues};
 use halfshaft_numerics::harmonics::HarmonicSet;
 
-use super::panels::{Panels, Tangent};
+use super::panels::Panels;
 use super::reduction::Reduction;
-use super::series::{MOST, Truncation, Waves, friction_slope, stiffness};
+use super::series::{Truncation, Waves};
 use super::structure::Structure;
 use super::switching::passages;
+use super::tangents::{Degree, Place, linear_tangents};
 use super::whole_line::WholeLine;
 
 /// An orbit as the variational equation sees it.
@@ -50,12 +51,8 @@ pub(super) struct Variational {
 
 /// Steps a period at most.
 const MOST_STEPS: usize = 100_000;
-/// Terms of a tangent stiffness that change a step by less than this part are left out.
-const NEGLIGIBLE: f64 = 1e-15;
 /// Columns from which on series are longer.
 const MANY: usize = 12;
-/// Terms beyond those that matter by which it is told that a series has died out.
-const SPARE: usize = 4;
 /// Part of the longest step that the last step's terms allowed.
 const CAUTION: f64 = 0.92;
 
@@ -133,7 +130,7 @@ impl Variational {
             if structure.columns() > MANY { Truncation::LONG } else { Truncation::SHORT };
         let mut panels = Panels::<W>::new(structure, orbit.speed, truncation);
         let mut tangents = linear_tangents(equations, structure.connections());
-        let mut degree = Degree { enough: truncation.degree, most: truncation.degree };
+        let mut degree = Degree::new(truncation.degree);
         let mut waves = Waves::new(orbit.set);
         let mut next = self.first.get() / orbit.speed;
         let (mut t, mut steps) = (0.0, 0);
@@ -199,110 +196,6 @@ impl Variational {
         }
         active
     }
-}
-
-/// Where along an orbit tangents are expanded.
-struct Place<'p> {
-    equations: &'p EquationsOfMotion,
-    orbit: &'p Orbit<'p>,
-    /// The piece of each nonlinear law that the twist is on.
-    pieces: &'p [Option<Piece>],
-    t: f64,
-    /// Time over which the series are needed.
-    reach: f64,
-}
-
-/// Powers of time of the tangents.
-struct Degree {
-    /// How far they were needed last.
-    enough: usize,
-    most: usize,
-}
-
-impl Place<'_> {
-    /// Writes the tangents of the nonlinear ones of the listed connections, ascending, as far as they
-    /// matter: most die out long before the last power of time that the columns take.
-    fn expand(
-        &self,
-        list: &[usize],
-        waves: &mut Waves,
-        degree: &mut Degree,
-        tangents: &mut [Tangent],
-    ) {
-        // Beyond this power the terms of all orders die out.
-        let turn = 2.0 * self.orbit.set.highest() as f64 * self.orbit.speed * self.reach;
-        if degree.enough as f64 <= turn {
-            degree.enough = degree.most;
-        }
-        loop {
-            let terms = self.expand_to(list, waves, degree.enough, tangents);
-            let died_out = terms + SPARE <= degree.enough + 1;
-            let done = died_out || degree.enough == degree.most;
-            degree.enough = if died_out { (terms + SPARE).min(degree.most) } else { degree.most };
-            if done {
-                return;
-            }
-        }
-    }
-
-    /// The same to a power of time; gives the number of terms that matter.
-    fn expand_to(
-        &self,
-        list: &[usize],
-        waves: &mut Waves,
-        degree: usize,
-        tangents: &mut [Tangent],
-    ) -> usize {
-        let mut x = [0.0; MOST + 1];
-        let mut most = 0;
-        waves.about(self.orbit.set, self.orbit.speed, self.t, degree);
-        for (connection, twist) in self.orbit.twists {
-            let Some(piece) = &self.pieces[*connection] else { continue };
-            let Ok(place) = list.binary_search(connection) else { continue };
-            let tangent = &mut tangents[place];
-            let connection = &self.equations.connections[*connection];
-            waves.sum(self.orbit.set, twist, &mut x);
-            stiffness(piece, &x, degree, &mut tangent.stiffness);
-            tangent.stiffness_terms = terms(&tangent.stiffness[..=degree], self.reach);
-            most = most.max(tangent.stiffness_terms);
-            if let Some(friction) = &connection.friction {
-                friction_slope(friction, &x, degree, &mut tangent.damping);
-                tangent.damping[0] += connection.damping;
-                tangent.damping_terms = terms(&tangent.damping[..=degree], self.reach);
-                most = most.max(tangent.damping_terms);
-            }
-        }
-        most
-    }
-}
-
-/// Tangents of the listed connections as if all were linear.
-fn linear_tangents(equations: &EquationsOfMotion, list: &[usize]) -> Vec<Tangent> {
-    let zero = [0.0; MOST + 1];
-    let of = |index: &usize| {
-        let connection = &equations.connections[*index];
-        let (mut stiffness, mut damping) = (zero, zero);
-        stiffness[0] = connection.law.stiffness(0.0);
-        damping[0] = connection.damping;
-        Tangent { stiffness, stiffness_terms: 1, damping, damping_terms: 1 }
-    };
-    list.iter().map(of).collect()
-}
-
-/// Terms of a series until the rest is rounding over a step of the given length.
-fn terms(series: &[f64], reach: f64) -> usize {
-    let mut power = 1.0;
-    let mut largest = 0.0_f64;
-    let mut last = 0;
-    for (index, value) in series.iter().enumerate() {
-        let size = (value * power).abs();
-        largest = largest.max(size);
-        if size > NEGLIGIBLE * largest {
-            last = index;
-        }
-        power *= reach;
-    }
-    last + 1
 }
 
 /// Eigenvalues; two by two in closed form.

@@ -38,6 +38,7 @@ impl Waves {
     }
 
     /// Expands them about time `t`, with a fundamental of `speed`.
+    #[inline(always)]
     pub(super) fn about(&mut self, set: &HarmonicSet, speed: f64, t: f64, degree: usize) {
         self.degree = degree;
         let (sin1, cos1) = (speed * t).sin_cos();
@@ -62,6 +63,7 @@ impl Waves {
     }
 
     /// The series of a twist with the given coefficients.
+    #[inline(always)]
     pub(super) fn sum(&self, set: &HarmonicSet, coefficients: &[f64], out: &mut Series) {
         out.fill(0.0);
         let length = self.degree + 1;
@@ -91,6 +93,7 @@ const INVERSE: [f64; MOST + 2] = {
 };
 
 /// The tangent stiffness `P'(x - origin)` of a piece of a law along the twist `x`.
+#[inline(always)]
 pub(super) fn stiffness(piece: &Piece, x: &Series, degree: usize, out: &mut Series) {
     out.fill(0.0);
     let coefficients = piece.torque.coefficients();
@@ -129,6 +132,7 @@ pub(super) fn friction_slope(friction: &Friction, x: &Series, degree: usize, out
     out.iter_mut().zip(slope).for_each(|(out, slope)| *out = scale * slope);
 }
 
+#[inline(always)]
 fn product(a: &Series, b: &Series, degree: usize) -> Series {
     let mut out = [0.0; MOST + 1];
     let length = 1 + b.iter().rposition(|value| *value != 0.0).unwrap_or(0);
