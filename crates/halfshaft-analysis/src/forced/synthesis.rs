@@ -3,16 +3,17 @@
 use std::f64::consts::TAU;
 
 /// Samples over a period of the highest order.
-const SAMPLES: usize = 20;
+const SAMPLES: usize = 16;
 /// Most samples over the common period.
 const MOST_SAMPLES: usize = 1 << 16;
 /// Newton steps on the slope from the best sample.
-const POLISHING: usize = 4;
-/// Change of the phase that ends them, in steps of the samples: the value moves by its square.
-const SETTLED: f64 = 1e-6;
-/// Terms of the Taylor series about a sample: half a step of the samples is a sixth of a radian of the
+const POLISHING: usize = 3;
+/// Change of the phase that ends them, in steps of the samples: the next one would be its square, and
+/// the value moves by the square of that.
+const SETTLED: f64 = 1e-4;
+/// Terms of the Taylor series about a sample: half a step of the samples is a fifth of a radian of the
 /// highest order, so the first one left out is below rounding.
-const TERMS: usize = 10;
+const TERMS: usize = 11;
 /// Greatest divisor of the lowest order that is tried for a common period.
 const MOST_PARTS: u32 = 1000;
 
@@ -146,20 +147,23 @@ impl Wave<'_> {
     /// Value at the extreme next to a sample.
     fn polished(&self, sample: usize) -> f64 {
         let series = self.series(sample);
-        let at = |shift: f64| {
-            let mut sums = [0.0; 3];
+        let slopes = |shift: f64| {
+            let (mut value, mut slope, mut curvature) = (0.0, 0.0, 0.0);
             for coefficient in series.iter().rev() {
-                sums[2] = sums[2] * shift + sums[1];
-                sums[1] = sums[1] * shift + sums[0];
-                sums[0] = sums[0] * shift + coefficient;
+                curvature = curvature * shift + slope;
+                slope = slope * shift + value;
+                value = value * shift + coefficient;
             }
-            [sums[0], sums[1], 2.0 * sums[2]]
+            (value, slope, 2.0 * curvature)
         };
         #[expect(clippy::cast_precision_loss, reason = "bounded")]
         let step = TAU / self.circle.len() as f64;
-        let mut shift = 0.0;
+        if series[2] == 0.0 {
+            return series[0];
+        }
+        let mut shift = (-0.5 * series[1] / series[2]).clamp(-step, step);
         for _ in 0..POLISHING {
-            let [_, slope, curvature] = at(shift);
+            let (_, slope, curvature) = slopes(shift);
             if curvature == 0.0 {
                 break;
             }
@@ -170,7 +174,7 @@ impl Wave<'_> {
                 break;
             }
         }
-        let [value, ..] = at(shift);
+        let (value, ..) = slopes(shift);
         if value.abs() >= series[0].abs() { value } else { series[0] }
     }
 }

@@ -1,6 +1,6 @@
 //! From a line to the answer of `modes`.
 
-use halfshaft_dynamics::EquationsOfMotion;
+use halfshaft_dynamics::{Connection, EquationsOfMotion};
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{ModesQuestion, Question};
 use halfshaft_numerics::Complex;
@@ -208,7 +208,11 @@ fn elastic_mode(
     if mode.eigenvalue < 0.0 {
         label = format!("unstable, moves away without vibrating: {label}");
     } else if mode.eigenvalue == 0.0 {
-        label = if strain.iter().all(|share| *share == 0.0) {
+        let slack = |(connection, x): (&Connection, &f64)| {
+            !connection.law.is_linear() && connection.law.stiffness(*x) == 0.0
+        };
+        let play = equations.connections.iter().zip(&state.twists).any(slack);
+        label = if strain.iter().all(|share| *share == 0.0) && !play {
             let moving = |a: &(&String, &f64), b: &(&String, &f64)| a.1.abs().total_cmp(&b.1.abs());
             let most = shape.iter().max_by(moving).map_or("", |(node, _)| node.as_str());
             format!("no vibration: {most} turns freely")
