@@ -72,7 +72,7 @@ class Table(Mapping[str, "Column"]):
 
     def __repr__(self) -> str:
         title = f" {self.title!r}" if self.title else ""
-        return f"<Table{title}: {self.rows} rows of {', '.join(self._columns)}>"
+        return f"<Table{title}: {self.rows} rows of {_few(self.names)}>"
 
     def __getstate__(self) -> tuple[Any, ...]:
         return self._columns, self.units, self.title
@@ -151,3 +151,9 @@ def joined(tables: Mapping[str, Table]) -> tuple[list[str], Table]:
         ]
         columns.append((name, unit, np.concatenate(parts) if parts else np.empty(0)))
     return titles, Table(columns)
+
+
+def _few(names: list[str]) -> str:
+    """The first names, and how many more there are."""
+    more = f" and {len(names) - 4} more columns" if len(names) > 5 else ""
+    return ", ".join(names[:4] if more else names) + more
