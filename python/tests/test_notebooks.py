@@ -1,4 +1,4 @@
-"""The notebooks and the examples run from top to bottom."""
+"""Notebooks and examples run from top to bottom; the reference page is that of the docstrings."""
 
 from __future__ import annotations
 
@@ -31,3 +31,9 @@ def test_the_examples_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     many = runpy.run_path(str(PYTHON / "examples" / "many_curves.py"))
     many["main"](40)
     assert "lines jump" in capsys.readouterr().out
+
+
+def test_the_reference_page_is_up_to_date() -> None:
+    made = runpy.run_path(str(PYTHON / "reference.py"))
+    told = "run `python python/reference.py`"
+    assert made["PAGE"].read_text(encoding="utf-8") == made["page"](), told

@@ -87,7 +87,7 @@ impl Ensemble {
         let board = Arc::new(Board::default());
         for _ in 0..threads.clamp(1, task.rows.len().max(1)) {
             let (task, board) = (Arc::clone(&task), Arc::clone(&board));
-            let named = thread::Builder::new().name("halfshaft".to_owned());
+            let named = thread::Builder::new().name("halfshaft".to_owned()).stack_size(work::STACK);
             named
                 .spawn(move || labour(&task, &board))
                 .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
@@ -109,8 +109,10 @@ impl Ensemble {
             let fetched = py.detach(|| self.fetch());
             match fetched {
                 Fetched::End => return Ok(None),
-                Fetched::Row(Ok(answer)) => return Ok(Some(PyAnswer::new(answer))),
-                Fetched::Row(Err(fault)) => return Err(fault.exception(py)),
+                Fetched::Row(row) => {
+                    let answer = row.map_err(|fault| fault.exception(py))?;
+                    return Ok(Some(PyAnswer::new(answer)));
+                }
                 // Ctrl-C leaves the work as it is: whoever catches it may go on fetching.
                 Fetched::Later => py.check_signals()?,
             }
@@ -131,7 +133,7 @@ impl Drop for Ensemble {
 }
 
 enum Fetched {
-    Row(Result<Answer, Fault>),
+    Row(Box<Result<Answer, Fault>>),
     Later,
     End,
 }
@@ -152,7 +154,7 @@ impl Ensemble {
                 state.fetched += 1;
                 drop(state);
                 self.board.bell.notify_all();
-                Fetched::Row(answer)
+                Fetched::Row(Box::new(answer))
             }
             None => Fetched::Later,
         }

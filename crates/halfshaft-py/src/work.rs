@@ -12,7 +12,7 @@ use crate::shared::Watch;
 /// Time between two looks at Python's signals: short for whoever presses Ctrl-C.
 pub const LOOK: Duration = Duration::from_millis(40);
 /// Stack of a computation: what the main thread of a program has.
-const STACK: usize = 8 << 20;
+pub const STACK: usize = 8 << 20;
 
 /// What a computation gave, with the exception that a signal or the progress raised meanwhile.
 pub struct Done<T> {
