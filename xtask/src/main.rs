@@ -1,4 +1,4 @@
-//! House tasks: `cargo xtask test`, `tidy`, `generate`, `fuzz`, `page`, `bench`.
+//! House tasks: `cargo xtask test`, `tidy`, `generate`, `fuzz`, `page`, `python`, `bench`.
 //!
 //! `test` is what CI calls: everything that must hold, each step doing its own set-up.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a face: it talks to the terminal")]
@@ -6,6 +6,7 @@
 mod fuzz;
 mod generate;
 mod page;
+mod python;
 mod readme;
 mod run;
 mod tidy;
@@ -17,11 +18,13 @@ use run::{Outcome, cargo, heading};
 const USAGE: &str = "usage: cargo xtask TASK
 
   test        everything that CI checks: format, house rules, generated files, lints, docs, tests,
-              the README's commands, the report in a browser, a minute of fuzzing
+              the README's commands, the report in a browser, the Python package, a minute
+              of fuzzing
   tidy        the house rules alone
   generate    write what is generated: schema, reference pages, example figures, README output
   readme      the README's commands alone
   page        the report in a headless browser alone
+  python      the Python package alone: wheel, types, tests (needs Python 3.10 or newer)
   fuzz        a minute of fuzzing all that reads text (needs a nightly toolchain)
   bench       all criterion benches
 ";
@@ -34,6 +37,7 @@ fn main() -> ExitCode {
         "generate" => generate::write(),
         "readme" => readme::check(),
         "page" => page::run(),
+        "python" => python::run(),
         "fuzz" => fuzz::run(),
         "bench" => cargo(&["bench", "--workspace"]),
         _ => {
@@ -77,6 +81,8 @@ fn test() -> Outcome {
     readme::check()?;
     heading("report in a browser");
     page::run()?;
+    heading("Python package");
+    python::run()?;
     heading("fuzzing");
     fuzz::run()
 }

@@ -33,6 +33,7 @@ const LAYERS: &[(&str, &[&str])] = &[
         ],
     ),
     ("halfshaft-cli", &["halfshaft"]),
+    ("halfshaft-py", &["halfshaft", "halfshaft-cli"]),
 ];
 
 /// Checks all rules and lists every breach.

@@ -1,7 +1,5 @@
 //! Why the program ends with another status than 0.
 
-use std::process::ExitCode;
-
 use halfshaft::model::FileError;
 use halfshaft::model::question::OptionError;
 use halfshaft::model::study::StudyError;
@@ -41,11 +39,11 @@ pub enum Failure {
 
 impl Failure {
     /// The exit status of the contract.
-    pub fn exit_code(&self) -> ExitCode {
+    pub fn exit_status(&self) -> u8 {
         match self {
-            Self::Input { .. } | Self::Diagnostics(_) | Self::Options(_) => ExitCode::from(2),
-            Self::Analysis { .. } | Self::Output { .. } => ExitCode::from(1),
-            Self::ReaderGone => ExitCode::SUCCESS,
+            Self::Input { .. } | Self::Diagnostics(_) | Self::Options(_) => 2,
+            Self::Analysis { .. } | Self::Output { .. } => 1,
+            Self::ReaderGone => 0,
         }
     }
 
