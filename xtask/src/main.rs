@@ -18,8 +18,7 @@ use run::{Outcome, cargo, heading};
 const USAGE: &str = "usage: cargo xtask TASK
 
   test        everything that CI checks: format, house rules, generated files, lints, docs, tests,
-              the README's commands, the report in a browser, the Python package, a minute
-              of fuzzing
+              the README's commands, the report in a browser, a minute of fuzzing
   tidy        the house rules alone
   generate    write what is generated: schema, reference pages, example figures, README output
   readme      the README's commands alone
@@ -81,8 +80,6 @@ fn test() -> Outcome {
     readme::check()?;
     heading("report in a browser");
     page::run()?;
-    heading("Python package");
-    python::run()?;
     heading("fuzzing");
     fuzz::run()
 }
