@@ -1,6 +1,6 @@
 //! `halfshaft._halfshaft`, the extension module behind the Python package.
 //!
-//! It is thin: a [`line::Line`] is a validated driveline, an [`answer::PyAnswer`] an answer, and both go
+//! It is thin: a `line::Line` is a validated driveline, an `answer::PyAnswer` an answer, and both go
 //! through the façade crate. What makes them feel native (keywords, units, tables, errors with what was
 //! reached) is Python, in `python/halfshaft`.
 #![allow(clippy::needless_pass_by_value, reason = "arguments of Python arrive by value")]

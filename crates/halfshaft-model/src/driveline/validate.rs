@@ -18,9 +18,30 @@ pub(crate) fn validate(line: &Driveline, places: &Places<'_>, found: &mut Diagno
     check_laws(line, places, found);
     check_torques(line, places, found);
     check_engines(line, places, found);
-    if dampers_sit(line, places, found) {
+    let fits = pieces_fit(line, places, found);
+    if dampers_sit(line, places, found) && fits {
         check_connection(&line.expanded(), places, found);
     }
+}
+
+/// Most pieces of all bars together.
+const MOST_PIECES: usize = 100_000;
+
+/// Whether the bars are cut into no more pieces than can be worked with; tells the one with most.
+fn pieces_fit(line: &Driveline, places: &Places<'_>, found: &mut Diagnostics) -> bool {
+    let bars = line.shafts.iter().enumerate();
+    let pieces = bars.filter_map(|(at, shaft)| Some((at, shaft.dimensions.as_ref()?.pieces())));
+    let (mut all, mut most) = (0, (0, 0));
+    for (at, count) in pieces {
+        all += count;
+        most = if count > most.1 { (at, count) } else { most };
+    }
+    if all > MOST_PIECES {
+        let message = format!("{all} pieces of bars are more than {MOST_PIECES}");
+        let place = places.key("shaft", most.0, "elements");
+        found.push(Diagnostic::error(place, message).hint("some dozens a bar are exact enough"));
+    }
+    all <= MOST_PIECES
 }
 
 /// Whether every damper sits on a node that something else brings; tells those that do not.
