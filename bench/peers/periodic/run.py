@@ -102,7 +102,8 @@ def scaling(half, repeats, folder):
     import cases
     import halfshaft
     import models
-    from table import judge, plain
+    from printed import plain
+    from table import judge
 
     low, high = cases.SCALING_RANGE
     lines = []
@@ -129,7 +130,7 @@ def scaling(half, repeats, folder):
 
 def million_points():
     """halfshaft by itself: numbers of responses at a million points, seconds on one thread."""
-    from table import plain
+    from printed import plain
 
     printed = environments.million_points()
     rows = [tuple(line.split()) for line in printed.splitlines()]

@@ -93,12 +93,3 @@ def markdown(title, rows, own, tolerance, head=HEAD):
     """A table of all rows, as Markdown that also reads well in a terminal."""
     lines = [cells(row, None if row in own else counterpart(row, own, tolerance)) for row in rows]
     return f"## {title}\n\n{plain(head, lines)}"
-
-
-def plain(head, lines):
-    """Aligned columns."""
-    widths = [max(len(line[i]) for line in (head, *lines)) for i in range(len(head))]
-    body = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths)) + " |"
-            for line in (head, *lines)]
-    body.insert(1, "|" + "|".join("-" * (width + 2) for width in widths) + "|")
-    return "\n".join(body) + "\n"

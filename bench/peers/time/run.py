@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import environments  # noqa: E402
 from environments import Failure, quietly  # noqa: E402
+from processes import one_core  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
 PERIODS = 200
@@ -30,14 +31,6 @@ def arguments():
     parser.add_argument("--halfshaft", help="a built example ensemble_times (default: cargo build --release)")
     parser.add_argument("--out", help="where the table goes (default target/peers/time.md)")
     return parser.parse_args()
-
-
-def one_core():
-    """This process and its children on one core."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"):
-        os.environ[name] = "1"
 
 
 class Side:

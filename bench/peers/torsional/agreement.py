@@ -1,7 +1,7 @@
 """The table of agreement: all programs on all cases."""
 
 import judgement
-from table import plain
+from printed import plain
 
 
 def rows(cases, said):

@@ -3,9 +3,7 @@
 import sys
 from pathlib import Path
 
-# What all comparisons share, and after this folder what the one of periodic responses has to share.
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-sys.path.append(str(Path(__file__).resolve().parents[1] / "periodic"))
 
 from preparation import Failure, built, environment, quietly, target_folder  # noqa: E402, F401
 

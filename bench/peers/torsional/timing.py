@@ -7,8 +7,8 @@ import models
 import uniform
 from environments import Failure
 from halfshaft import every_shaft
+from printed import plain
 from processes import median
-from table import plain
 
 # Seconds after which what takes long is not repeated: it is known within a few per cent.
 ENOUGH = 20.0

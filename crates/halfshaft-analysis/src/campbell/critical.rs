@@ -19,7 +19,7 @@ pub(super) fn speeds(
 ) -> Vec<CriticalSpeed> {
     let mut speeds = Vec::new();
     for (index, (mode, pair)) in modes.iter().zip(pairs).enumerate() {
-        let frequency = mode.eigenvalue.max(0.0).sqrt();
+        let frequency = mode.frequency();
         for order in orders.iter().filter(|_| frequency > 0.0) {
             let speed = frequency / order;
             if speed < from || speed > to {

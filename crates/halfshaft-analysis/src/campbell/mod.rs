@@ -9,12 +9,12 @@ mod critical;
 
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{CampbellQuestion, Question};
-use halfshaft_results::{CampbellGear, CampbellResult, Gear};
+use halfshaft_results::{CampbellGear, CampbellResult};
 
 use crate::error::AnalysisError;
 use crate::header::header;
 use crate::modal::damping_ratio;
-use crate::modal::vibration::{Vibration, gears};
+use crate::modal::vibration::{InGear, Vibration, at_rest_in_gears};
 use crate::modal::words;
 
 /// Orders that are told where nothing excites the line.
@@ -34,30 +34,20 @@ pub(crate) fn solve(
     here.told(&mut header);
     let orders = orders(&here, question, &mut header.assumptions);
     let operating = question.operating.or(line.whole().operating_rad_s);
-    let mut vibrations = Vec::new();
-    for (gear, line) in gears(line, question.this_gear)? {
-        match Vibration::of(&line, None) {
-            Ok(vibration) => vibrations.push((gear, vibration)),
-            Err(AnalysisError::NoEquilibrium { reason }) => {
-                header.warnings.push(format!("{} is left out: {reason}", gear_words(&gear)));
-            }
-            Err(error) => return Err(error),
-        }
-    }
     let mut solved = Vec::new();
-    for (gear, vibration) in vibrations {
-        let modes = vibration.modes(question.count)?;
-        let pairs = vibration.damped(&modes)?.elastic;
-        solved.push((gear, vibration, modes, pairs));
+    for in_gear in at_rest_in_gears(line, question.this_gear, &mut header)? {
+        let modes = in_gear.vibration.modes(question.count)?;
+        let pairs = in_gear.vibration.damped(&modes)?.elastic;
+        solved.push((in_gear, modes, pairs));
     }
-    let lowest = solved.iter().flat_map(|(_, _, modes, _)| modes.iter().take(SHOWN_MODES));
-    let highest = lowest.map(|mode| mode.eigenvalue.max(0.0).sqrt()).fold(0.0, f64::max);
+    let lowest = solved.iter().flat_map(|(_, modes, _)| modes.iter().take(SHOWN_MODES));
+    let highest = lowest.map(|mode| mode.frequency()).fold(0.0, f64::max);
     let frequency = question.frequency.unwrap_or_else(|| range(operating, &orders, highest));
     let gears = solved
         .iter()
-        .map(|(gear, vibration, modes, pairs)| CampbellGear {
+        .map(|(InGear { gear, vibration, .. }, modes, pairs)| CampbellGear {
             gear: gear.clone(),
-            frequency: modes.iter().map(|mode| mode.eigenvalue.max(0.0).sqrt()).collect(),
+            frequency: modes.iter().map(|mode| mode.frequency()).collect(),
             damping_ratio: pairs.iter().map(|pair| damping_ratio(*pair)).collect(),
             label: modes
                 .iter()
@@ -67,14 +57,6 @@ pub(crate) fn solve(
         })
         .collect();
     Ok(CampbellResult { header, frequency, orders, operating, gears })
-}
-
-/// A gear in words, for warnings.
-pub(crate) fn gear_words(gear: &Gear) -> String {
-    match (&gear.gearbox, gear.ratio) {
-        (Some(gearbox), Some(ratio)) => format!("{gearbox} at ratio {ratio}"),
-        _ => "the line".to_owned(),
-    }
 }
 
 /// Orders that are asked for, those of the torques, or some.
@@ -107,7 +89,7 @@ pub(crate) fn default_range(
         return Ok((from / BEYOND, to * BEYOND));
     }
     let modes = vibration.modes(SHOWN_MODES)?;
-    let highest = modes.last().map_or(0.0, |mode| mode.eigenvalue.max(0.0).sqrt());
+    let highest = modes.last().map_or(0.0, |mode| mode.frequency());
     Ok(range(None, orders, highest))
 }
 

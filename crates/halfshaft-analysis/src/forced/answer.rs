@@ -10,10 +10,10 @@ use super::engines;
 use super::speeds::{self, speeds};
 use super::sweep::Sweep;
 use super::synthesis::multiples;
-use crate::campbell::{default_range, gear_words};
+use crate::campbell::default_range;
 use crate::error::AnalysisError;
 use crate::header::header;
-use crate::modal::vibration::{Vibration, gears};
+use crate::modal::vibration::{InGear, Vibration, at_rest_in_gears};
 
 /// Most numbers of one gear: they are half a gigabyte.
 const MOST_VALUES: usize = 60_000_000;
@@ -35,18 +35,12 @@ pub(crate) fn solve(
         );
     }
     let mut told = Vec::new();
-    for (gear, line) in gears(line, question.this_gear)? {
+    for InGear { gear, line, vibration } in at_rest_in_gears(line, question.this_gear, &mut header)?
+    {
         if observer.cancelled() {
             stopped(&mut header, told.len());
             break;
         }
-        let vibration = match Vibration::of(&line, None) {
-            Err(AnalysisError::NoEquilibrium { reason }) => {
-                header.warnings.push(format!("{} is left out: {reason}", gear_words(&gear)));
-                continue;
-            }
-            other => other?,
-        };
         told.push(in_gear(gear, &line, &vibration, question, &orders, observer)?);
         undamped(&vibration, &mut header);
         if let Some(warning) = speeds::too_wide(&vibration, question, &orders)?

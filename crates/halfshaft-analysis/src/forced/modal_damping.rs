@@ -11,9 +11,8 @@ use halfshaft_numerics::blocks::SymmetricSystem;
 use halfshaft_numerics::dense::{Matrix, solve};
 use halfshaft_numerics::pencil::{Pencil, PencilTerm, add_term};
 
-use super::system::damping;
 use crate::error::AnalysisError;
-use crate::modal::sparse::{elastic_count, rigid_shape, terms};
+use crate::modal::sparse::{damping_of_terms, elastic_count, rigid_shape, terms};
 use crate::modal::vibration::Vibration;
 
 /// A line in its modes.
@@ -35,15 +34,14 @@ impl ModalResponse {
     pub(super) fn new(vibration: &Vibration) -> Result<Self, AnalysisError> {
         let equations = &vibration.equations;
         let modes = vibration.modes(elastic_count(equations))?;
-        let mut frequencies: Vec<f64> =
-            modes.iter().map(|mode| mode.eigenvalue.max(0.0).sqrt()).collect();
+        let mut frequencies: Vec<f64> = modes.iter().map(|mode| mode.frequency()).collect();
         let mut shapes: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.shape).collect();
         if let Some(rigid) = rigid_shape(equations) {
             frequencies.push(0.0);
             shapes.push(rigid);
         }
         let terms = terms(equations, &vibration.state.twists);
-        let damping = damping(equations, &vibration.state.twists);
+        let damping = damping_of_terms(equations, &vibration.state.twists);
         let viscous = |index: usize, _: &PencilTerm| damping[index].0;
         let hysteretic = |index: usize, term: &PencilTerm| damping[index].1 * term.stiffness;
         let coupled = damping.iter().any(|(viscous, loss)| *viscous != 0.0 || *loss != 0.0);
@@ -108,11 +106,7 @@ fn projected(
         if factor == 0.0 {
             continue;
         }
-        let along = |shape: &Vec<f64>| {
-            term.first.1 * shape[term.first.0]
-                + term.second.map_or(0.0, |(node, entry)| entry * shape[node])
-        };
-        let parts: Vec<f64> = shapes.iter().map(along).collect();
+        let parts: Vec<f64> = shapes.iter().map(|shape| term.along(shape)).collect();
         for (row, first) in parts.iter().enumerate() {
             for (column, second) in parts.iter().enumerate() {
                 matrix[(row, column)] += factor * first * second;

@@ -37,26 +37,31 @@ pub(super) fn speeds(
         return Ok(spaced(points));
     }
     let mut speeds = spaced(SPACED as usize);
-    let modes = vibration.modes(MODES)?;
-    let pairs = vibration.damped(&modes)?.elastic;
     let step = (to - from) / f64::from(SPACED);
-    for (mode, pair) in modes.iter().zip(pairs) {
-        let width = damping_ratio(pair).abs().max(NARROWEST);
-        let natural = mode.eigenvalue.max(0.0).sqrt();
-        for order in orders {
-            let critical = natural / order;
-            if critical * width > BROAD * step {
-                continue; // seen anyway
-            }
-            // An undamped line has no value at the resonance itself.
-            let about = ABOUT.iter().filter(|part| **part != 0.0 || width > NARROWEST);
-            speeds.extend(about.map(|part| critical * (1.0 + part * width)));
+    for (critical, ratio) in resonances(vibration, orders)? {
+        let width = ratio.max(NARROWEST);
+        if critical * width > BROAD * step {
+            continue; // seen anyway
         }
+        // An undamped line has no value at the resonance itself.
+        let about = ABOUT.iter().filter(|part| **part != 0.0 || width > NARROWEST);
+        speeds.extend(about.map(|part| critical * (1.0 + part * width)));
     }
     speeds.retain(|speed| *speed >= from && *speed <= to && *speed > 0.0);
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
     Ok(speeds)
+}
+
+/// Speeds at which orders meet modes, and the half width of the peak over the speed: the damping ratio.
+fn resonances(vibration: &Vibration, orders: &[f64]) -> Result<Vec<(f64, f64)>, AnalysisError> {
+    let modes = vibration.modes(MODES)?;
+    let pairs = vibration.damped(&modes)?.elastic;
+    let each = modes.iter().zip(pairs).flat_map(|(mode, pair)| {
+        let (natural, ratio) = (mode.frequency(), damping_ratio(pair).abs());
+        orders.iter().map(move |order| (natural / order, ratio))
+    });
+    Ok(each.collect())
 }
 
 /// A warning where speeds that someone has spaced may step over a peak.
@@ -70,14 +75,9 @@ pub(super) fn too_wide(
     };
     #[expect(clippy::cast_precision_loss, reason = "bounded")]
     let step = (to - from) / points.max(2).saturating_sub(1) as f64;
-    let modes = vibration.modes(MODES)?;
-    let pairs = vibration.damped(&modes)?.elastic;
-    let narrow = modes.iter().zip(pairs).any(|(mode, pair)| {
-        let natural = mode.eigenvalue.max(0.0).sqrt();
-        let critical = orders.iter().map(|order| natural / order);
-        let width = damping_ratio(pair).abs();
-        critical.into_iter().any(|speed| speed > from && speed < to && speed * width < step)
-    });
+    let narrow = resonances(vibration, orders)?
+        .into_iter()
+        .any(|(speed, ratio)| speed > from && speed < to && speed * ratio < step);
     Ok(narrow.then(|| {
         "some peaks are narrower than the step between the speeds: leave --points out, or take more, \
          to see how high they are"

@@ -81,6 +81,7 @@ impl<'v> Sweep<'v> {
         let mut re = vec![vec![0.0; self.channels.len()]; self.orders.len()];
         let (mut im, mut ranges) = (re.clone(), vec![0.0; self.channels.len()]);
         let mut motion = Vec::new();
+        let equations = &self.vibration.equations;
         for (index, speed) in speeds.iter().enumerate() {
             if index % 64 == 0 && observer.cancelled() {
                 return Ok(());
@@ -88,9 +89,11 @@ impl<'v> Sweep<'v> {
             let mut power = vec![0.0; self.dampers.len()];
             for (number, order) in self.orders.iter().enumerate() {
                 let omega = order * speed;
-                self.torques(*order, *speed, &mut motion);
+                let torques = equations.excitation.harmonic(equations.groups(), *order, *speed);
+                motion.clear();
+                motion.extend(torques.into_iter().map(|(re, im)| Complex::new(re, im)));
                 line.solve(omega, &mut motion);
-                if omega == 0.0 && self.vibration.equations.rigid.is_some() {
+                if omega == 0.0 && equations.rigid.is_some() {
                     // A standing excitation moves a free line away.
                     motion.fill(Complex::new(f64::NAN, f64::NAN));
                 }
@@ -106,22 +109,6 @@ impl<'v> Sweep<'v> {
             self.heat.iter_mut().zip(power).for_each(|(heat, power)| heat.push(power));
         }
         Ok(())
-    }
-
-    /// Torques of an order on the groups.
-    fn torques(&self, order: f64, speed: f64, torques: &mut Vec<Complex>) {
-        let equations = &self.vibration.equations;
-        torques.clear();
-        torques.resize(equations.groups(), Complex::default());
-        let following = |source: &&halfshaft_dynamics::Source| source.own_frequency.is_none();
-        for source in equations.excitation.sources.iter().filter(following) {
-            let growth = source.ratio * source.growth(speed);
-            for harmonic in source.harmonics.iter().filter(|harmonic| harmonic.order == order) {
-                let torque =
-                    Complex::from_polar(growth * harmonic.amplitude_nm, harmonic.phase_rad);
-                torques[source.group] = torques[source.group] + torque;
-            }
-        }
     }
 
     /// Mean power of one order in a damper, W.

@@ -39,7 +39,7 @@ pub(super) struct Synthesis {
     multiples: Option<Vec<usize>>,
     /// Cosine and sine of `2π n / N`.
     circle: Vec<(f64, f64)>,
-    high: Vec<Extreme>,
+    extremes: Vec<Extreme>,
     values: Vec<f64>,
 }
 
@@ -63,7 +63,7 @@ impl Synthesis {
         let start = Extreme { high: 0.0, high_at: 0, low: 0.0, low_at: 0 };
         Self {
             circle: (0..count).map(point).collect(),
-            high: vec![start; channels],
+            extremes: vec![start; channels],
             values: vec![0.0; channels],
             multiples,
         }
@@ -78,7 +78,7 @@ impl Synthesis {
             Some(multiples) if multiples.len() > 1 => {
                 self.sample(multiples, re, im);
                 for (channel, out) in out.iter_mut().enumerate() {
-                    let Extreme { high_at, low_at, .. } = self.high[channel];
+                    let Extreme { high_at, low_at, .. } = self.extremes[channel];
                     let circle = &self.circle;
                     let wave = Wave { multiples, circle, re, im, channel };
                     *out = 0.5 * (wave.polished(high_at) - wave.polished(low_at));
@@ -94,7 +94,7 @@ impl Synthesis {
     fn sample(&mut self, multiples: &[usize], re: &[Vec<f64>], im: &[Vec<f64>]) {
         let count = self.circle.len();
         let none = Extreme { high: f64::NEG_INFINITY, high_at: 0, low: f64::INFINITY, low_at: 0 };
-        self.high.fill(none);
+        self.extremes.fill(none);
         for n in 0..count {
             self.values.fill(0.0);
             for ((multiple, re), im) in multiples.iter().zip(re).zip(im) {
@@ -103,7 +103,7 @@ impl Synthesis {
                     *value += re * cos - im * sin;
                 }
             }
-            for (extreme, value) in self.high.iter_mut().zip(&self.values) {
+            for (extreme, value) in self.extremes.iter_mut().zip(&self.values) {
                 if *value > extreme.high {
                     (extreme.high, extreme.high_at) = (*value, n);
                 }

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::Complex;
 use halfshaft_numerics::blocks::SymmetricSystem;
 use halfshaft_numerics::pencil::{Pencil, PencilTerm, add_term};
 
 use super::modal_damping::ModalResponse;
 use crate::error::AnalysisError;
-use crate::modal::sparse::terms;
+use crate::modal::sparse::{damping_of_terms, terms};
 use crate::modal::vibration::Vibration;
 
 /// Steps of iterative refinement at most.
@@ -41,7 +40,7 @@ impl LinearLine {
         let pencil = Pencil::new(equations.groups(), terms.clone());
         let modal =
             if equations.modal_damping > 0.0 { Some(ModalResponse::new(vibration)?) } else { None };
-        let damping = damping(equations, twists);
+        let damping = damping_of_terms(equations, twists);
         let terms = terms.into_iter().zip(damping);
         let terms =
             terms.map(|(term, (damping, loss_factor))| DynamicTerm { term, damping, loss_factor });
@@ -77,14 +76,8 @@ impl LinearLine {
         for _ in 0..MOST_REFINEMENTS {
             let mut rest = torques.to_vec();
             for term in &self.terms {
-                let (node, entry) = term.term.first;
-                let second = term.term.second;
-                let other = second.map_or(Complex::default(), |(node, e)| motion[node].scaled(e));
-                let torque = term.value(omega) * (motion[node].scaled(entry) + other);
-                rest[node] = rest[node] - torque.scaled(entry);
-                if let Some((node, entry)) = second {
-                    rest[node] = rest[node] - torque.scaled(entry);
-                }
+                let torque = term.value(omega) * term.term.along(motion);
+                term.term.scatter(-torque, &mut rest);
             }
             self.system.solve(&mut rest, &mut self.work);
             let largest = |values: &[Complex]| {
@@ -108,13 +101,4 @@ impl DynamicTerm {
             omega * damping + loss_factor * term.stiffness,
         )
     }
-}
-
-/// Viscous damping and loss factor of each term of [`terms`].
-pub(super) fn damping(equations: &EquationsOfMotion, twists: &[f64]) -> Vec<(f64, f64)> {
-    let ends = equations.connections.iter().zip(twists);
-    let connections = ends
-        .filter(|(connection, _)| connection.from.is_some() || connection.to.is_some())
-        .map(|(connection, x)| (connection.damping_at(*x), connection.loss_factor));
-    connections.chain(equations.ground_damping.iter().map(|damping| (*damping, 0.0))).collect()
 }

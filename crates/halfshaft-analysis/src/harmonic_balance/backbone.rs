@@ -292,7 +292,7 @@ pub(super) fn backbones(
     let free = Rc::new(undamped(equations));
     for order in setting.orders() {
         for mode in &modes {
-            let natural = mode.eigenvalue.max(0.0).sqrt() / (order as f64 * setting.base);
+            let natural = mode.frequency() / (order as f64 * setting.base);
             let (low, high) = settings.frequency;
             if natural < 0.5 * low || natural > 2.0 * high || natural == 0.0 {
                 continue;

@@ -43,7 +43,7 @@ fn about(
     let Some(asked) = modes.get(mode - 1) else {
         return Err(AnalysisError::NoSuchMode { asked: mode, found: modes.len() });
     };
-    let natural = asked.eigenvalue.max(0.0).sqrt() / order;
+    let natural = asked.frequency() / order;
     if natural == 0.0 {
         return Err(AnalysisError::MethodDoesNotFit {
             method: "harmonic-balance",

@@ -70,7 +70,7 @@ pub(crate) fn in_gears(line: &Driveline, count: usize) -> Result<Vec<ModesInGear
         let pairs = vibration.damped(&modes)?;
         rows.push(ModesInGear {
             gear,
-            frequency: modes.iter().map(|mode| mode.eigenvalue.max(0.0).sqrt()).collect(),
+            frequency: modes.iter().map(|mode| mode.frequency()).collect(),
             damped_frequency: pairs.elastic.iter().map(|pair| pair[0].im.abs()).collect(),
             damping_ratio: pairs.elastic.iter().map(|pair| damping_ratio(*pair)).collect(),
         });
@@ -203,7 +203,7 @@ fn elastic_mode(
     let twists: Vec<f64> = mode.twists.iter().map(|twist| twist / scale).collect();
     let strain = strain_shares(equations, state, mode);
     let kinetic = kinetic_shares(equations, &mode.shape);
-    let frequency = mode.eigenvalue.max(0.0).sqrt();
+    let frequency = mode.frequency();
     let mut label = words(equations, state, mode);
     if mode.eigenvalue < 0.0 {
         label = format!("unstable, moves away without vibrating: {label}");

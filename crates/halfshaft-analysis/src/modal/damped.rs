@@ -49,7 +49,7 @@ pub(crate) fn damped(
     for (mode, pair) in modes.iter().zip(&mut pairs.elastic) {
         let ratio = equations.modal_damping + loss(equations, mode, twists) / 2.0;
         if ratio > 0.0 {
-            let further = 2.0 * ratio * mode.eigenvalue.max(0.0).sqrt();
+            let further = 2.0 * ratio * mode.frequency();
             *pair = quadratic(further - (pair[0] + pair[1]).re, (pair[0] * pair[1]).re);
         }
     }

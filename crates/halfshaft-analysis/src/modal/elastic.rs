@@ -43,6 +43,13 @@ pub(crate) fn lowest_modes(
     Ok(modes)
 }
 
+impl ElasticMode {
+    /// Natural frequency, rad/s; 0 where the equilibrium is unstable in it.
+    pub(crate) fn frequency(&self) -> f64 {
+        self.eigenvalue.max(0.0).sqrt()
+    }
+}
+
 /// The motions of a line that are orthogonal to its rigid-body motion.
 pub(crate) struct ElasticSpace {
     root_inertia: Vec<f64>,

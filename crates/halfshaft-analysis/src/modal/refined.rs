@@ -6,7 +6,7 @@ use halfshaft_numerics::blocks::SymmetricSystem;
 use halfshaft_numerics::pencil::{Pencil, PencilTerm, add_term};
 
 use super::elastic::ElasticMode;
-use super::sparse::terms;
+use super::sparse::{damping_of_terms, terms};
 
 /// Steps of inverse iteration: it converges cubically.
 const MOST_STEPS: usize = 12;
@@ -28,11 +28,7 @@ pub(super) fn refined(
     pairs: &mut [[Complex; 2]],
 ) {
     let terms = terms(equations, twists);
-    let ends = equations.connections.iter().zip(twists);
-    let damping = ends
-        .filter(|(connection, _)| connection.from.is_some() || connection.to.is_some())
-        .map(|(connection, x)| connection.damping_at(*x))
-        .chain(equations.ground_damping.iter().copied());
+    let damping = damping_of_terms(equations, twists).into_iter().map(|(viscous, _)| viscous);
     let terms: Vec<(PencilTerm, f64)> = terms.into_iter().zip(damping).collect();
     if terms.iter().all(|(_, damping)| *damping == 0.0) {
         return;
@@ -78,12 +74,7 @@ impl Damped {
         let mut product = vec![Complex::default(); x.len()];
         for (term, damping) in &self.terms {
             let factor = value.scaled(2.0 * term.inertia) + Complex::from(*damping);
-            let part = factor * along(term, x);
-            let (node, entry) = term.first;
-            product[node] = product[node] + part.scaled(entry);
-            if let Some((node, entry)) = term.second {
-                product[node] = product[node] + part.scaled(entry);
-            }
+            term.scatter(factor * term.along(x), &mut product);
         }
         product
     }
@@ -92,7 +83,7 @@ impl Damped {
     fn nearest_root(&self, x: &[Complex], value: Complex) -> Option<Complex> {
         let mut sums = [Complex::default(); 3];
         for (term, damping) in &self.terms {
-            let part = along(term, x);
+            let part = term.along(x);
             let square = part * part;
             for (sum, factor) in sums.iter_mut().zip([term.stiffness, *damping, term.inertia]) {
                 *sum = *sum + square.scaled(factor);
@@ -106,11 +97,6 @@ impl Damped {
         let roots = [root, -root].map(|root| (root - b) / a.scaled(2.0));
         roots.into_iter().min_by(|p, q| (*p - value).modulus().total_cmp(&(*q - value).modulus()))
     }
-}
-
-fn along(term: &PencilTerm, x: &[Complex]) -> Complex {
-    let second = term.second.map_or(Complex::default(), |(node, entry)| x[node].scaled(entry));
-    x[term.first.0].scaled(term.first.1) + second
 }
 
 fn square_root(z: Complex) -> Complex {

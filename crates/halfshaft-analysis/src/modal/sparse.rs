@@ -28,6 +28,15 @@ pub(crate) fn terms(equations: &EquationsOfMotion, twists: &[f64]) -> Vec<Pencil
     connections.chain(groups).collect()
 }
 
+/// Viscous damping and loss factor of each term of [`terms`].
+pub(crate) fn damping_of_terms(equations: &EquationsOfMotion, twists: &[f64]) -> Vec<(f64, f64)> {
+    let ends = equations.connections.iter().zip(twists);
+    let connections = ends
+        .filter(|(connection, _)| connection.from.is_some() || connection.to.is_some())
+        .map(|(connection, x)| (connection.damping_at(*x), connection.loss_factor));
+    connections.chain(equations.ground_damping.iter().map(|damping| (*damping, 0.0))).collect()
+}
+
 /// Squared frequency over the largest local one that is rounding.
 const NOTHING: f64 = 1e-20;
 

@@ -55,6 +55,36 @@ impl Vibration {
     }
 }
 
+/// A line in a gear, with its equilibrium there.
+pub(crate) struct InGear {
+    pub(crate) gear: Gear,
+    pub(crate) line: Driveline,
+    pub(crate) vibration: Vibration,
+}
+
+/// The gears of a question in which the line has a stable state; the others are warned of.
+pub(crate) fn at_rest_in_gears(
+    line: &Driveline,
+    only_this: bool,
+    header: &mut halfshaft_results::Header,
+) -> Result<Vec<InGear>, AnalysisError> {
+    let mut resting = Vec::new();
+    for (gear, line) in gears(line, only_this)? {
+        match Vibration::of(&line, None) {
+            Ok(vibration) => resting.push(InGear { gear, line, vibration }),
+            Err(AnalysisError::NoEquilibrium { reason }) => {
+                let which = match (&gear.gearbox, gear.ratio) {
+                    (Some(gearbox), Some(ratio)) => format!("{gearbox} at ratio {ratio}"),
+                    _ => "the line".to_owned(),
+                };
+                header.warnings.push(format!("{which} is left out: {reason}"));
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(resting)
+}
+
 /// Every gear of every gearbox that lists its ratios, with the line in it; the line as it is where there
 /// is none, or where only its gear is wanted.
 pub(crate) fn gears(

@@ -32,9 +32,8 @@ pub(super) fn check_connection(line: &Driveline, places: &Places<'_>, found: &mu
         }));
         check_shafts_turn(line, &topology, places, found);
     }
-    check_torque_nodes(line, &topology, places, found);
+    check_driven_nodes(line, &topology, places, found);
     let massless = check_masses(line, &topology, places, found);
-    check_engine_nodes(line, &topology, places, found);
     // What hangs on a node that nobody knows cannot be judged.
     let Some(meant) = as_meant(line, &massless).filter(has_connection) else {
         return;
@@ -85,23 +84,26 @@ fn listed<'l>(nodes: impl Iterator<Item = &'l str>) -> String {
     names.join(", ")
 }
 
-/// Every torque needs an existing node.
-fn check_torque_nodes(
+/// Every torque and every cylinder of an engine needs an existing node.
+fn check_driven_nodes(
     line: &Driveline,
     topology: &Topology,
     places: &Places<'_>,
     found: &mut Diagnostics,
 ) {
+    let torques = line.torques.iter().enumerate().map(|(at, torque)| ("torque", at, &torque.on));
+    let cranks = line.engines.iter().enumerate();
+    let cranks = cranks.flat_map(|(at, engine)| engine.on.iter().map(move |on| ("engine", at, on)));
     let mut looks = 0..MOST_LOOKS;
-    for (index, torque) in line.torques.iter().enumerate() {
-        if topology.node(&torque.on).is_none() && places.has("torque", index, "on") {
-            let message = format!("no node is named \"{}\"", torque.on);
+    for (list, index, on) in torques.chain(cranks) {
+        if topology.node(on).is_none() && places.has(list, index, "on") {
             let hint = looks.next().map(|_| {
-                did_you_mean(&torque.on, anchored(line)).unwrap_or_else(|| {
+                did_you_mean(on, anchored(line)).unwrap_or_else(|| {
                     format!("the nodes of this line are {}", listed(anchored(line)))
                 })
             });
-            let span = places.key("torque", index, "on");
+            let message = format!("no node is named \"{on}\"");
+            let span = places.key(list, index, "on");
             found.push(Diagnostic::error(span, message).maybe_hint(hint));
         }
     }
@@ -114,24 +116,6 @@ struct Massless<'l> {
 }
 
 const ADD_INERTIA: &str = "add an [[inertia]] of that name, or connect the node by a [[gear]]";
-
-/// Every engine needs existing nodes.
-fn check_engine_nodes(
-    line: &Driveline,
-    topology: &Topology,
-    places: &Places<'_>,
-    found: &mut Diagnostics,
-) {
-    for (index, engine) in line.engines.iter().enumerate() {
-        for node in engine.on.iter().filter(|node| topology.node(node).is_none()) {
-            let hint = did_you_mean(node, anchored(line)).unwrap_or_else(|| {
-                format!("the nodes of this line are {}", listed(anchored(line)))
-            });
-            let message = format!("no node is named \"{node}\"");
-            found.push(Diagnostic::error(places.key("engine", index, "on"), message).hint(hint));
-        }
-    }
-}
 
 /// How many connections end at each group.
 fn ends_at(line: &Driveline, topology: &Topology) -> Vec<usize> {

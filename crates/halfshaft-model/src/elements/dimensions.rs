@@ -34,43 +34,34 @@ pub struct Dimensions {
 /// Most pieces of one bar.
 const MOST_ELEMENTS: u32 = 10_000;
 
-const fn dimension(
-    name: &'static str,
-    kind: QuantityKind,
-    sign: Sign,
-    doc: &'static str,
-) -> KeySpec {
-    KeySpec::new(name, ValueSpec::Quantity(kind, sign), doc)
-}
-
 /// The keys among those of `[[shaft]]`.
 pub(super) const DIMENSIONS: [KeySpec; 6] = [
-    dimension(
+    KeySpec::of_quantity(
         "length",
         QuantityKind::Length,
         Sign::Positive,
         "Length L of a round bar in place of a law: stiffness G I / L and inertia ρ I L with \
          I = π (D⁴ - d⁴) / 32. Goes with outer_diameter and shear_modulus.",
     ),
-    dimension(
+    KeySpec::of_quantity(
         "outer_diameter",
         QuantityKind::Length,
         Sign::Positive,
         "Outer diameter D of the bar.",
     ),
-    dimension(
+    KeySpec::of_quantity(
         "inner_diameter",
         QuantityKind::Length,
         Sign::NonNegative,
         "Inner diameter d of a hollow bar. Default 0.",
     ),
-    dimension(
+    KeySpec::of_quantity(
         "shear_modulus",
         QuantityKind::Pressure,
         Sign::Positive,
         "Shear modulus G of the bar.",
     ),
-    dimension(
+    KeySpec::of_quantity(
         "density",
         QuantityKind::Density,
         Sign::NonNegative,

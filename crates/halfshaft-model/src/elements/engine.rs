@@ -51,15 +51,6 @@ pub struct Engine {
     pub highest_order: f64,
 }
 
-const fn quantity(
-    name: &'static str,
-    kind: QuantityKind,
-    sign: Sign,
-    doc: &'static str,
-) -> KeySpec {
-    KeySpec::new(name, ValueSpec::Quantity(kind, sign), doc)
-}
-
 /// Most cylinders.
 const MOST_CYLINDERS: u32 = 64;
 /// Highest order that can be taken.
@@ -102,10 +93,10 @@ pub static ENGINE: TableSpec = TableSpec {
              firing_order.",
         ),
         KeySpec::new("strokes", ValueSpec::Count(2, 4), "Strokes of a working cycle: 4 or 2. Default 4."),
-        quantity("bore", QuantityKind::Length, Sign::Positive, "Bore of a cylinder."),
-        quantity("stroke", QuantityKind::Length, Sign::Positive, "Stroke of the piston, twice the crank radius r."),
-        quantity("rod_length", QuantityKind::Length, Sign::Positive, "Length l of the connecting rod."),
-        quantity(
+        KeySpec::of_quantity("bore", QuantityKind::Length, Sign::Positive, "Bore of a cylinder."),
+        KeySpec::of_quantity("stroke", QuantityKind::Length, Sign::Positive, "Stroke of the piston, twice the crank radius r."),
+        KeySpec::of_quantity("rod_length", QuantityKind::Length, Sign::Positive, "Length l of the connecting rod."),
+        KeySpec::of_quantity(
             "oscillating_mass",
             QuantityKind::Mass,
             Sign::NonNegative,
@@ -116,7 +107,7 @@ pub static ENGINE: TableSpec = TableSpec {
             ValueSpec::TableOrText(&CRANK_PRESSURE),
             "Gas pressure p in one cylinder over a working cycle: points, or the path of a CSV file.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "crankcase_pressure",
             QuantityKind::Pressure,
             Sign::NonNegative,
@@ -127,7 +118,7 @@ pub static ENGINE: TableSpec = TableSpec {
             ValueSpec::TableOrText(&CRANK_TORQUE),
             "Torque of one cylinder over a working cycle in place of the pressure and the crank gear.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "highest_order",
             QuantityKind::Number,
             Sign::Positive,

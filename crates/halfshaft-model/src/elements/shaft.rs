@@ -103,15 +103,6 @@ const fn stiffness(name: &'static str, degree: u8, doc: &'static str) -> KeySpec
     KeySpec::new(name, ValueSpec::Quantity(QuantityKind::Stiffness(degree), Sign::Any), doc)
 }
 
-const fn quantity(
-    name: &'static str,
-    kind: QuantityKind,
-    sign: Sign,
-    doc: &'static str,
-) -> KeySpec {
-    KeySpec::new(name, ValueSpec::Quantity(kind, sign), doc)
-}
-
 /// Where damping acts: at every twist, or only in contact.
 const DAMPING_WORDS: [&str; 2] = ["always", IN_CONTACT];
 /// Damping that acts in contact only.
@@ -146,13 +137,13 @@ pub static SHAFT: TableSpec = TableSpec {
             "Node whose angle counts negative in the twist.",
         )
         .required(),
-        quantity(
+        KeySpec::of_quantity(
             "stiffness",
             QuantityKind::Stiffness(1),
             Sign::NonNegative,
             "Linear stiffness k1. Required, unless stages or a table give the torque.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "damping",
             QuantityKind::Damping,
             Sign::NonNegative,
@@ -163,7 +154,7 @@ pub static SHAFT: TableSpec = TableSpec {
         stiffness("cubic", 3, "k3: hardening above zero, softening below. Default 0."),
         stiffness("quintic", 5, "k5. Default 0."),
         stiffness("septic", 7, "k7. Default 0."),
-        quantity(
+        KeySpec::of_quantity(
             "clearance",
             QuantityKind::Angle,
             Sign::NonNegative,
@@ -171,7 +162,7 @@ pub static SHAFT: TableSpec = TableSpec {
              the polynomial acts on the penetration, with the sign of the twist. A mean torque moves \
              the working point onto a flank by itself. Optional.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "contact",
             QuantityKind::Angle,
             Sign::Any,
@@ -194,19 +185,19 @@ pub static SHAFT: TableSpec = TableSpec {
             ValueSpec::TableOrText(&MEASURED),
             "Measured law in place of the polynomial: points, or the path of a CSV file.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "preload",
             QuantityKind::Torque,
             Sign::Any,
             "Torque at zero twist, added to any law. Default 0.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "friction",
             QuantityKind::Torque,
             Sign::NonNegative,
             "Dry friction torque in parallel: friction · tanh(x' / friction_speed). Default 0.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "friction_speed",
             QuantityKind::Speed,
             Sign::Positive,
@@ -218,7 +209,7 @@ pub static SHAFT: TableSpec = TableSpec {
             ValueSpec::Table(&ENGAGEMENT),
             "A clutch that engages: how the friction comes to bear over time. Optional.",
         ),
-        quantity(
+        KeySpec::of_quantity(
             "loss_factor",
             QuantityKind::Number,
             Sign::NonNegative,

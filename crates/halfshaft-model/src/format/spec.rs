@@ -71,6 +71,16 @@ impl KeySpec {
         Self { name, value, required: false, doc }
     }
 
+    /// An optional key that holds a number with a unit.
+    pub const fn of_quantity(
+        name: &'static str,
+        kind: QuantityKind,
+        sign: Sign,
+        doc: &'static str,
+    ) -> Self {
+        Self::new(name, ValueSpec::Quantity(kind, sign), doc)
+    }
+
     /// The same, required.
     #[must_use]
     pub const fn required(self) -> Self {

@@ -19,17 +19,28 @@ pub trait Scalar:
 {
     /// A size: the modulus to a factor of `sqrt(2)`.
     fn size(self) -> f64;
+
+    /// The number times a real factor.
+    fn scaled(self, factor: f64) -> Self;
 }
 
 impl Scalar for f64 {
     fn size(self) -> f64 {
         self.abs()
     }
+
+    fn scaled(self, factor: f64) -> Self {
+        self * factor
+    }
 }
 
 impl Scalar for Complex {
     fn size(self) -> f64 {
         self.re.abs() + self.im.abs()
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        Self { re: self.re * factor, im: self.im * factor }
     }
 }
 

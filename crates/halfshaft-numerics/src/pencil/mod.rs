@@ -12,7 +12,7 @@ mod lanczos;
 
 use std::sync::Arc;
 
-use crate::blocks::{Pattern, SymmetricSystem};
+use crate::blocks::{Pattern, Scalar, SymmetricSystem};
 use crate::dense::dot;
 
 /// One term `value · w wᵀ` of `K` and of `M`, with `w` of one or two entries.
@@ -71,11 +71,7 @@ impl Pencil {
     fn times_inertia(&self, x: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; x.len()];
         for term in self.terms.iter().filter(|term| term.inertia != 0.0) {
-            let value = term.inertia * term.along(x);
-            product[term.first.0] += term.first.1 * value;
-            if let Some((node, entry)) = term.second {
-                product[node] += entry * value;
-            }
+            term.scatter(term.inertia * term.along(x), &mut product);
         }
         product
     }
@@ -90,17 +86,24 @@ impl Pencil {
 
 impl PencilTerm {
     /// `wᵀ x`.
-    fn along(&self, x: &[f64]) -> f64 {
-        self.first.1 * x[self.first.0] + self.second.map_or(0.0, |(node, entry)| entry * x[node])
+    #[inline]
+    pub fn along<T: Scalar>(&self, x: &[T]) -> T {
+        let (node, entry) = self.first;
+        let second = self.second.map_or(T::default(), |(node, entry)| x[node].scaled(entry));
+        x[node].scaled(entry) + second
+    }
+
+    /// Adds `w value` to `out`.
+    #[inline]
+    pub fn scatter<T: Scalar>(&self, value: T, out: &mut [T]) {
+        for (node, entry) in [Some(self.first), self.second].into_iter().flatten() {
+            out[node] = out[node] + value.scaled(entry);
+        }
     }
 }
 
 /// Adds `value · w wᵀ` to a system on the graph of the term.
-pub fn add_term<T: crate::blocks::Scalar>(
-    system: &mut SymmetricSystem<T>,
-    term: &PencilTerm,
-    value: T,
-) {
+pub fn add_term<T: Scalar>(system: &mut SymmetricSystem<T>, term: &PencilTerm, value: T) {
     let (node, entry) = term.first;
     system.add(node, value * T::from(entry * entry));
     let Some((other, second)) = term.second else { return };

@@ -3,16 +3,13 @@
 use halfshaft_results::{CampbellGear, CampbellResult, CriticalSpeed, Gear};
 
 use super::{Account, Grid, Tone};
-use crate::words::{capital, counted, number, percent, plain, quantity};
+use crate::words::{RPM, capital, counted, number, percent, plain, quantity};
 
 /// Rows of a table at most.
 const MOST_ROWS: usize = 30;
 /// Distance from the operating range that is asked for in practice (classification societies ask for
 /// 10 to 20 %).
 const CLOSE: f64 = 0.2;
-
-/// Revolutions per minute of a radian per second.
-pub(crate) const RPM: f64 = 30.0 / std::f64::consts::PI;
 
 /// The whole account.
 pub(crate) fn account(result: &CampbellResult) -> Account {

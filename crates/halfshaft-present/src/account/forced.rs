@@ -2,9 +2,9 @@
 
 use halfshaft_results::{EngineOrders, ForcedGear, ForcedPeak, ForcedResult};
 
-use super::campbell::{RPM, gear_name};
+use super::campbell::gear_name;
 use super::{Account, Grid};
-use crate::words::{counted, number, plain, quantity};
+use crate::words::{RPM, counted, number, plain, quantity};
 
 /// Rows of a table at most.
 const MOST_ROWS: usize = 30;

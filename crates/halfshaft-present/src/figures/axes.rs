@@ -1,13 +1,10 @@
 //! Axes for the columns of results.
 
 use crate::figure::{Axis, Colour, Curve, Reference, escape};
-use crate::words::{capital, column_label, short, unit};
+use crate::words::{RPM, capital, column_label, short, unit};
 
 /// Longest name of a user in a figure, in characters.
 const NAME: usize = 36;
-
-/// Revolutions per minute of one radian per second.
-const RPM: f64 = 30.0 / std::f64::consts::PI;
 
 /// A name of a user in a figure.
 pub(super) fn name(text: &str) -> String {

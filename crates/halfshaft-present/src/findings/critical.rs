@@ -3,8 +3,7 @@
 use halfshaft_results::{CriticalSpeed, ReportResult};
 
 use super::{Finding, Standing};
-use crate::account::campbell::RPM;
-use crate::words::{counted, number, percent, plain, quantity};
+use crate::words::{RPM, counted, number, percent, plain, quantity};
 
 /// Distance from the operating range below which a critical speed is told.
 const NEAR: f64 = 0.2;

@@ -5,7 +5,7 @@
 
 use halfshaft_results::{Branch, Header, ResonanceResult};
 
-use crate::words::{column_label, column_words, plain, quantity};
+use crate::words::{RPM, column_label, column_words, plain, quantity};
 
 mod course;
 
@@ -56,9 +56,6 @@ pub(crate) struct Abscissa {
     /// Symbol of its unit.
     pub(crate) unit: String,
 }
-
-/// Revolutions per minute of one radian per second.
-const RPM: f64 = 30.0 / std::f64::consts::PI;
 
 impl Abscissa {
     /// Whether it is the excitation speed.

@@ -7,7 +7,7 @@
 use super::name::plain;
 
 /// Revolutions per minute of one radian per second.
-pub(super) const RPM: f64 = 30.0 / std::f64::consts::PI;
+pub(crate) const RPM: f64 = 30.0 / std::f64::consts::PI;
 
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

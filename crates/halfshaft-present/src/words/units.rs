@@ -28,7 +28,7 @@ pub(crate) fn frequency_words(rad_per_s: f64) -> String {
         "{}\u{a0}rad/s ({}\u{a0}Hz, {}\u{a0}rpm)",
         number(rad_per_s, 5),
         number(rad_per_s / std::f64::consts::TAU, 4),
-        number(rad_per_s * super::column::RPM, 5),
+        number(rad_per_s * super::RPM, 5),
     )
 }
 

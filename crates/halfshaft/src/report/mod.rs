@@ -82,7 +82,7 @@ impl Reporter<'_> {
             self.report.modes = Some(modes);
         }
         self.linear();
-        if self.is_long() {
+        if self.leaves_motions_out() {
             return;
         }
         let shock = ShockQuestion { compare: true, duration: 3.0, ..ShockQuestion::default() };
@@ -101,8 +101,8 @@ impl Reporter<'_> {
         }
     }
 
-    /// Whether the line is too long for the motions of a report; then that is told.
-    fn is_long(&mut self) -> bool {
+    /// Tells what is left out of the report of a line too long for it, and whether it is.
+    fn leaves_motions_out(&mut self) -> bool {
         let check = &self.report.check;
         let freedom = check.degrees_of_freedom;
         let linear = check.shafts.iter().all(|shaft| shaft.nonlinear_terms.is_empty())

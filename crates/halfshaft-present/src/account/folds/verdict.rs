@@ -7,9 +7,7 @@
 use halfshaft_results::{FoldsResult, SpecialKind, SpecialPoint};
 
 use crate::reading::bounds;
-use crate::words::{counted, list, number, plain, quantity, times};
-
-const RPM: f64 = 30.0 / std::f64::consts::PI;
+use crate::words::{RPM, counted, list, number, plain, quantity, times};
 
 /// The speeds at which curves pass a value of the parameter, ascending, rad/s.
 fn folds_at(result: &FoldsResult, value: f64) -> Vec<f64> {

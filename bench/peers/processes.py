@@ -4,14 +4,10 @@ import os
 import resource
 import statistics
 import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from preparation import Failure  # noqa: E402, F401
+from preparation import Failure  # noqa: F401
 
 
 @dataclass
