@@ -13,9 +13,8 @@ use halfshaft_results::{CampbellGear, CampbellResult};
 
 use crate::error::AnalysisError;
 use crate::header::header;
-use crate::modal::damping_ratio;
 use crate::modal::vibration::{InGear, Vibration, at_rest_in_gears};
-use crate::modal::words;
+use crate::modal::{ElasticMode, damping_ratio, words};
 
 /// Orders that are told where nothing excites the line.
 const SOME_ORDERS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
@@ -41,13 +40,13 @@ pub(crate) fn solve(
         solved.push((in_gear, modes, pairs));
     }
     let lowest = solved.iter().flat_map(|(_, modes, _)| modes.iter().take(SHOWN_MODES));
-    let highest = lowest.map(|mode| mode.frequency()).fold(0.0, f64::max);
+    let highest = lowest.map(ElasticMode::frequency).fold(0.0, f64::max);
     let frequency = question.frequency.unwrap_or_else(|| range(operating, &orders, highest));
     let gears = solved
         .iter()
         .map(|(InGear { gear, vibration, .. }, modes, pairs)| CampbellGear {
             gear: gear.clone(),
-            frequency: modes.iter().map(|mode| mode.frequency()).collect(),
+            frequency: modes.iter().map(ElasticMode::frequency).collect(),
             damping_ratio: pairs.iter().map(|pair| damping_ratio(*pair)).collect(),
             label: modes
                 .iter()
@@ -89,7 +88,7 @@ pub(crate) fn default_range(
         return Ok((from / BEYOND, to * BEYOND));
     }
     let modes = vibration.modes(SHOWN_MODES)?;
-    let highest = modes.last().map_or(0.0, |mode| mode.frequency());
+    let highest = modes.last().map_or(0.0, ElasticMode::frequency);
     Ok(range(None, orders, highest))
 }
 

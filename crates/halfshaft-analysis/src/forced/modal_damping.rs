@@ -12,6 +12,7 @@ use halfshaft_numerics::dense::{Matrix, solve};
 use halfshaft_numerics::pencil::{Pencil, PencilTerm, add_term};
 
 use crate::error::AnalysisError;
+use crate::modal::ElasticMode;
 use crate::modal::sparse::{damping_of_terms, elastic_count, rigid_shape, terms};
 use crate::modal::vibration::Vibration;
 
@@ -34,7 +35,7 @@ impl ModalResponse {
     pub(super) fn new(vibration: &Vibration) -> Result<Self, AnalysisError> {
         let equations = &vibration.equations;
         let modes = vibration.modes(elastic_count(equations))?;
-        let mut frequencies: Vec<f64> = modes.iter().map(|mode| mode.frequency()).collect();
+        let mut frequencies: Vec<f64> = modes.iter().map(ElasticMode::frequency).collect();
         let mut shapes: Vec<Vec<f64>> = modes.into_iter().map(|mode| mode.shape).collect();
         if let Some(rigid) = rigid_shape(equations) {
             frequencies.push(0.0);

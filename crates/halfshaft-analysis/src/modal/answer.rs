@@ -70,7 +70,7 @@ pub(crate) fn in_gears(line: &Driveline, count: usize) -> Result<Vec<ModesInGear
         let pairs = vibration.damped(&modes)?;
         rows.push(ModesInGear {
             gear,
-            frequency: modes.iter().map(|mode| mode.frequency()).collect(),
+            frequency: modes.iter().map(ElasticMode::frequency).collect(),
             damped_frequency: pairs.elastic.iter().map(|pair| pair[0].im.abs()).collect(),
             damping_ratio: pairs.elastic.iter().map(|pair| damping_ratio(*pair)).collect(),
         });
