@@ -4,12 +4,15 @@
 mod common;
 
 use std::f64::consts::{PI, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{line_of, some, try_ask};
+use common::{line_of, question, some, try_ask};
+use halfshaft_analysis::ask;
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{QuestionText, Verb};
 use halfshaft_numerics::Complex;
-use halfshaft_results::{Answer, CampbellResult, ForcedResult, ModesResult};
+use halfshaft_numerics::observer::Observer;
+use halfshaft_results::{Answer, CampbellResult, ForcedResult, ModesResult, Reason};
 
 fn modes(line: &Driveline, question: &QuestionText) -> ModesResult {
     match try_ask(line, Verb::Modes, question) {
@@ -657,4 +660,38 @@ fn dampers_at_massless_nodes_are_exact() {
     let series = impedance(maxwell, Complex::new(0.0, 15.0));
     let exact = (series / (series - Complex::from(15.0 * 15.0 * m))).modulus();
     assert!((torque / exact - 1.0).abs() < 1e-12, "{torque} {exact}");
+}
+
+/// An observer that asks for the end at its n-th call.
+struct StopsAfter(AtomicUsize);
+
+impl Observer for StopsAfter {
+    fn cancelled(&self) -> bool {
+        self.0.fetch_sub(1, Ordering::Relaxed) <= 1
+    }
+}
+
+// Source: the contract of observers: what was reached is kept, with a reason, also within the only gear.
+#[test]
+fn a_vibration_that_is_stopped_says_so() {
+    let text = QuestionText {
+        frequency: some("1..100"),
+        points: some("500"),
+        this_gear: true,
+        ..QuestionText::default()
+    };
+    let driven =
+        chain(&[2.0, 5.0], &[1500.0], "[[torque]]\nname = \"t\"\non = \"J0\"\namplitude = 10\n");
+    let asked = question(&driven, Verb::Forced, &text);
+    let Ok(Answer::Forced(stopped)) = ask(&driven, &asked, &StopsAfter(AtomicUsize::new(3))) else {
+        panic!("something was reached")
+    };
+    assert_eq!(stopped.header.termination.reason, Reason::Cancelled);
+    let whole = forced(&driven, &text);
+    assert!(whole.header.termination.is_complete());
+    let (few, all) = (&stopped.gears[0].table, &whole.gears[0].table);
+    assert!(few.rows() > 0 && few.rows() < all.rows());
+    for (few, all) in few.columns.iter().zip(&all.columns) {
+        assert_eq!(few.values, all.values[..few.values.len()]);
+    }
 }

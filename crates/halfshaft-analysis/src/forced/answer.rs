@@ -37,21 +37,23 @@ pub(crate) fn solve(
     let mut told = Vec::new();
     for InGear { gear, line, vibration } in at_rest_in_gears(line, question.this_gear, &mut header)?
     {
-        if observer.cancelled() {
-            stopped(&mut header, told.len());
-            break;
-        }
-        told.push(in_gear(gear, &line, &vibration, question, &orders, observer)?);
+        let (gear, complete) = in_gear(gear, &line, &vibration, question, &orders, observer)?;
+        told.push(gear);
         undamped(&vibration, &mut header);
         if let Some(warning) = speeds::too_wide(&vibration, question, &orders)?
             && !header.warnings.contains(&warning)
         {
             header.warnings.push(warning);
         }
+        if !complete {
+            stopped(&mut header, told.len());
+            break;
+        }
     }
     Ok(ForcedResult { header, orders, engines: engines::tables(line), gears: told })
 }
 
+/// The vibration in one gear, and whether all speeds are told.
 fn in_gear(
     gear: Gear,
     line: &Driveline,
@@ -59,7 +61,7 @@ fn in_gear(
     question: &ForcedQuestion,
     orders: &[f64],
     observer: &dyn Observer,
-) -> Result<ForcedGear, AnalysisError> {
+) -> Result<(ForcedGear, bool), AnalysisError> {
     let range = match question.frequency {
         Some(range) => range,
         None => default_range(line, vibration, orders)?,
@@ -74,8 +76,8 @@ fn in_gear(
         return Err(AnalysisError::TooLarge { values, most: MOST_VALUES, advice });
     }
     let mut sweep = Sweep::new(vibration, orders, channels, question.shafts.as_deref());
-    sweep.run(&speeds, observer)?;
-    Ok(sweep.into_result(gear))
+    let complete = sweep.run(&speeds, observer)?;
+    Ok((sweep.into_result(gear), complete))
 }
 
 /// Orders that act and are asked for.
@@ -107,9 +109,9 @@ fn undamped(vibration: &Vibration, header: &mut Header) {
     }
 }
 
-fn stopped(header: &mut Header, gears: usize) {
+fn stopped(header: &mut Header, gear: usize) {
     header.termination = Termination::early(
         Reason::Cancelled,
-        format!("stopped after {gears} gears; those are complete"),
+        format!("stopped in gear number {gear}, of which the lower speeds are told"),
     );
 }

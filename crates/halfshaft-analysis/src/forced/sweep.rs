@@ -70,12 +70,12 @@ impl<'v> Sweep<'v> {
         }
     }
 
-    /// Goes through the speeds; ends early where the observer asks for it.
+    /// Goes through the speeds; whether to their end, which the observer may not wait for.
     pub(super) fn run(
         &mut self,
         speeds: &[f64],
         observer: &dyn Observer,
-    ) -> Result<(), AnalysisError> {
+    ) -> Result<bool, AnalysisError> {
         let mut line = LinearLine::new(self.vibration)?;
         let mut synthesis = Synthesis::new(self.orders, self.channels.len());
         let mut re = vec![vec![0.0; self.channels.len()]; self.orders.len()];
@@ -84,7 +84,7 @@ impl<'v> Sweep<'v> {
         let equations = &self.vibration.equations;
         for (index, speed) in speeds.iter().enumerate() {
             if index % 64 == 0 && observer.cancelled() {
-                return Ok(());
+                return Ok(false);
             }
             let mut power = vec![0.0; self.dampers.len()];
             for (number, order) in self.orders.iter().enumerate() {
@@ -108,7 +108,7 @@ impl<'v> Sweep<'v> {
             self.keep(*speed, (&re, &im), &ranges);
             self.heat.iter_mut().zip(power).for_each(|(heat, power)| heat.push(power));
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Mean power of one order in a damper, W.
