@@ -1,6 +1,7 @@
 //! The report in a headless browser: its figures draw, nothing complains, nothing is fetched.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use crate::run::{Outcome, finish, halfshaft, has, target};
@@ -22,29 +23,65 @@ pub fn run() -> Outcome {
         Command::new(program).args(["report", "--quiet", "--out"]).arg(&page),
         "halfshaft report",
     )?;
-    let output = Command::new(browser)
-        .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
-        .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
-        .args(["--enable-logging=stderr", "--virtual-time-budget=20000", "--window-size=1200,9000"])
-        .arg(format!("--user-data-dir={}", folder.join("profile").display()))
-        .arg("--dump-dom")
-        .arg(format!("file://{}", page.display()))
-        .output()
-        .map_err(|error| format!("{browser}: {error}"))?;
-    judge(&String::from_utf8_lossy(&output.stdout), &String::from_utf8_lossy(&output.stderr))
+    Opened::by(browser, &page)?.complains()?;
+    let whole = folder.join("every-figure.html");
+    let text = fs::read_to_string(&page).map_err(|error| format!("{}: {error}", page.display()))?;
+    fs::write(&whole, without_watching(&text))
+        .map_err(|error| format!("{}: {error}", whole.display()))?;
+    every_figure(&Opened::by(browser, &whole)?, text.matches("<figure class=\"plot").count())
 }
 
-fn judge(dom: &str, log: &str) -> Outcome {
-    let figures = dom.matches("js-plotly-plot").count();
-    if figures < 5 {
-        return Err(format!("only {figures} interactive figures were drawn:\n{log}"));
-    }
-    let complaints: Vec<&str> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
-    if !complaints.is_empty() {
-        return Err(format!("the page complains:\n{}", complaints.join("\n")));
+/// The page for a browser that cannot tell what the reader is near: it draws every figure while it
+/// loads, so that what is counted does not depend on how fast this machine scrolls and paints.
+fn without_watching(page: &str) -> String {
+    page.replacen("<head>", "<head><script>delete window.IntersectionObserver;</script>", 1)
+}
+
+fn every_figure(page: &Opened, figures: usize) -> Outcome {
+    page.complains()?;
+    let drawn = page.drawn();
+    if figures < 5 || drawn != figures {
+        return Err(format!("{drawn} of {figures} interactive figures were drawn:\n{}", page.log));
     }
     println!("report: {figures} interactive figures drawn, no complaint");
     Ok(())
+}
+
+/// What a browser made of a page: its elements after its scripts ran, and what it said.
+struct Opened {
+    dom: String,
+    log: String,
+}
+
+impl Opened {
+    fn by(browser: &str, page: &Path) -> Result<Self, String> {
+        let output = Command::new(browser)
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic"])
+            .args(["--no-first-run", "--disable-background-networking", "--disable-sync"])
+            .args(["--disable-component-update", "--enable-logging=stderr"])
+            .args(["--virtual-time-budget=20000", "--window-size=1200,9000", "--dump-dom"])
+            .arg(format!("--user-data-dir={}", page.with_extension("profile").display()))
+            .arg(format!("file://{}", page.display()))
+            .output()
+            .map_err(|error| format!("{browser}: {error}"))?;
+        Ok(Self {
+            dom: String::from_utf8_lossy(&output.stdout).into_owned(),
+            log: String::from_utf8_lossy(&output.stderr).into_owned(),
+        })
+    }
+
+    fn drawn(&self) -> usize {
+        self.dom.matches("<figure class=\"plot drawn\"").count()
+    }
+
+    fn complains(&self) -> Outcome {
+        let complaints: Vec<&str> =
+            self.log.lines().filter(|line| line.contains("CONSOLE")).collect();
+        if complaints.is_empty() {
+            return Ok(());
+        }
+        Err(format!("the page complains:\n{}", complaints.join("\n")))
+    }
 }
 
 fn find_browser() -> Option<&'static str> {
