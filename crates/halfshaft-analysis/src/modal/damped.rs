@@ -21,8 +21,8 @@ pub(crate) struct DampedPairs {
     pub(crate) rigid: Option<[Complex; 2]>,
 }
 
-/// Coupling below this part of the diagonal counts as none.
-const UNCOUPLED: f64 = 1e-13;
+/// Coupling below this part of the diagonal counts as none: it moves an eigenvalue by its square.
+const UNCOUPLED: f64 = 1e-10;
 
 /// Damped eigenvalues of a line about an equilibrium whose undamped modes are given: all of them, or
 /// the lowest.
@@ -82,23 +82,29 @@ fn projected(
     let mut matrix = Matrix::zeros(count, count);
     for (index, connection) in equations.connections.iter().enumerate() {
         let damping = connection.damping_at(twists[index]);
-        // The rigid-body motion twists nothing.
-        for (row, first) in modes.iter().enumerate().filter(|_| damping != 0.0) {
-            for (column, second) in modes.iter().enumerate() {
-                matrix[(row, column)] += damping * first.twists[index] * second.twists[index];
-            }
+        if damping != 0.0 {
+            // The rigid-body motion twists nothing.
+            let part: Vec<f64> = modes.iter().map(|mode| mode.twists[index]).collect();
+            add_square(&mut matrix, damping, &part);
         }
     }
     let shapes = || modes.iter().map(|mode| mode.shape.as_slice()).chain(rigid);
     for (group, damping) in equations.ground_damping.iter().enumerate().filter(|(_, d)| **d != 0.0)
     {
-        for (row, first) in shapes().enumerate() {
-            for (column, second) in shapes().enumerate() {
-                matrix[(row, column)] += damping * first[group] * second[group];
-            }
-        }
+        let part: Vec<f64> = shapes().map(|shape| shape[group]).collect();
+        add_square(&mut matrix, *damping, &part);
     }
     matrix
+}
+
+/// Adds `factor · part partᵀ`, the part in the first rows and columns.
+fn add_square(matrix: &mut Matrix, factor: f64, part: &[f64]) {
+    for (row, first) in part.iter().enumerate() {
+        let scaled = factor * first;
+        for (entry, second) in matrix.row_mut(row).iter_mut().zip(part) {
+            *entry += scaled * second;
+        }
+    }
 }
 
 fn is_diagonal(matrix: &Matrix) -> bool {
