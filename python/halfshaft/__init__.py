@@ -16,6 +16,7 @@ from ._ask import OnInterrupt, ask
 from ._ensemble import Ensemble, ensemble
 from ._errors import (
     AnalysisError,
+    BeyondRange,
     ConvergenceError,
     Diagnostic,
     EarlyEnd,
@@ -26,6 +27,7 @@ from ._errors import (
     Problem,
     QuestionError,
 )
+from ._law import TorqueFunction
 from ._model import Driveline, example, from_dict, load, loads
 from ._quantity import Progress
 from ._record import Record
@@ -36,6 +38,7 @@ __version__: str = _halfshaft.version()
 
 __all__ = [
     "AnalysisError",
+    "BeyondRange",
     "ConvergenceError",
     "Diagnostic",
     "Driveline",
@@ -50,6 +53,7 @@ __all__ = [
     "Record",
     "Result",
     "Table",
+    "TorqueFunction",
     "ensemble",
     "example",
     "from_dict",
