@@ -64,8 +64,8 @@ class Builder:
         ends = {"name": name, "from": from_, "to": to, "stiffness": stiffness}
         if torque is None:
             return self._with_element("shaft", {**ends, **keys})
-        # The reader wants some law; the function takes its place.
-        stand_in = {**ends, "stiffness": 0 if stiffness is None else stiffness}
+        # The reader wants some law and a torque from it; the function takes its place.
+        stand_in = {**ends, "stiffness": 1 if stiffness is None else stiffness}
         return self._with_element("shaft", {**stand_in, **keys}).with_law(name, torque)
 
     def with_law(

@@ -119,7 +119,7 @@ def _listing(function: Callable[[Any], Any]) -> Callable[[_Array], list[float]]:
                 torques = np.empty(0)
             together = torques.shape == twists.shape
             if together:
-                return torques.tolist()
+                return [float(torque) for torque in torques]
         return [float(function(float(twist))) for twist in twists]
 
     return values

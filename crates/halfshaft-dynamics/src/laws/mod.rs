@@ -153,6 +153,16 @@ impl TorqueLaw {
         of_each!(self, law => law.is_linear())
     }
 
+    /// Whether all derivatives of the torque are continuous: a polynomial, or a function without kinks,
+    /// whose polynomials join to rounding.
+    pub fn is_smooth(&self) -> bool {
+        match self {
+            Self::Polynomial(_) => true,
+            Self::Function(law) => law.kinks().is_empty(),
+            _ => false,
+        }
+    }
+
     /// Whether `T(-x) = -T(x)`.
     pub fn is_odd(&self) -> bool {
         of_each!(self, law => law.is_odd())
