@@ -65,7 +65,7 @@ def test_folds_basins_and_rest_take_a_function(
     calm = [line.with_({"spring.damping": 5}) for line in (oscillator, by_function)]
     maps = [line.basins(frequency=25.9, grid=8, window=((-4, 4), (-100, 100))) for line in calm]
     assert [len(found.attractors) for found in maps] == [1, 1]
-    amplitudes = [found.attractors[0]["spring.twist.amplitude"] for found in maps]
+    amplitudes = [found.attractors[0]["values"]["spring.twist.amplitude"] for found in maps]
     assert amplitudes[1] == pytest.approx(amplitudes[0], rel=1e-8)
     assert by_function.modes().modes[0].frequency == pytest.approx(math.sqrt(K1), rel=1e-13)
 
