@@ -13,6 +13,7 @@ import os
 
 from . import _halfshaft
 from ._ask import OnInterrupt, ask
+from ._auto import AutoBranch, AutoPoint, read_auto
 from ._ensemble import Ensemble, ensemble
 from ._errors import (
     AnalysisError,
@@ -38,6 +39,8 @@ __version__: str = _halfshaft.version()
 
 __all__ = [
     "AnalysisError",
+    "AutoBranch",
+    "AutoPoint",
     "BeyondRange",
     "ConvergenceError",
     "Diagnostic",
@@ -60,6 +63,7 @@ __all__ = [
     "load",
     "load_result",
     "loads",
+    "read_auto",
     "run_study",
 ]
 
