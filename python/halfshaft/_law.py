@@ -112,7 +112,9 @@ def _listing(function: Callable[[Any], Any]) -> Callable[[_Array], list[float]]:
         nonlocal together
         if together:
             try:
-                torques = np.asarray(function(twists.copy()), dtype=np.float64)
+                # What is not finite is told with its place, which NumPy's warning lacks.
+                with np.errstate(all="ignore"):
+                    torques = np.asarray(function(twists.copy()), dtype=np.float64)
             except Exception:
                 # One that branches, or is of the module math, takes numbers only; whether it fails
                 # for other reasons its calls with numbers show.

@@ -87,9 +87,7 @@ fn told(error: &SampleError<PyErr>, name: &str, (from, to): (f64, f64)) -> Strin
     match error {
         SampleError::NotFinite { at, value } => format!(
             "the torque function {name} gives {value} at a twist of {at:.5} rad: give the range of \
-             twists that it holds for, say range=({:.3}, {:.3})",
-            -0.9 * at.abs(),
-            0.9 * at.abs()
+             twists that it holds for, range=(least, greatest)"
         ),
         SampleError::Rough { at } => {
             let places: Vec<String> = at.iter().map(|x| format!("{x:.6}")).collect();
