@@ -66,8 +66,8 @@ fn types(folder: &Path, tests: &Path) -> Outcome {
     let mut pyright = python(tests, folder, &["-m", "pyright", "--pythonpath"]);
     finish(pyright.arg(tests).arg("--project").arg(&settings), "pyright")?;
     // Every type that a user may meet is written down.
-    let mut whole = python(tests, folder, &["-m", "pyright", "--pythonpath"]);
-    whole.arg(tests).args(["--verifytypes", "halfshaft", "--ignoreexternal"]);
+    let complete = ["-m", "pyright", "--verifytypes", "halfshaft", "--ignoreexternal"];
+    let mut whole = python(tests, folder, &complete);
     let told = whole.output().map_err(|error| format!("pyright --verifytypes: {error}"))?;
     if told.status.success() {
         return Ok(());
@@ -179,9 +179,16 @@ fn install(interpreter: &Path, wheel: &Path) -> Outcome {
     finish(&mut command, "pip install of the wheel")
 }
 
-/// Python in a folder that has no package of ours in it.
+/// Python in a folder that has no package of ours in it, with the environment as where programs are.
 fn python(interpreter: &Path, folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(interpreter);
+    let own = interpreter.parent().map(Path::to_path_buf);
+    let known = std::env::var_os("PATH").unwrap_or_default();
+    let all = own.into_iter().chain(std::env::split_paths(&known));
+    // Without it pyright would look at another Python's packages.
+    if let Ok(path) = std::env::join_paths(all) {
+        command.env("PATH", path);
+    }
     command.current_dir(folder).args(arguments);
     command
 }
