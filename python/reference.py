@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import inspect
+import sys
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import halfshaft
+# The sources beside this file lack the extension module: the installed package is meant.
+sys.path = [path for path in sys.path if Path(path or ".").resolve() != Path(__file__).resolve().parent]
+
+import halfshaft  # noqa: E402
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "python-reference.md"
 HEAD = """# Reference of the Python package

@@ -13,9 +13,11 @@ import os
 
 from . import _halfshaft
 from ._ask import OnInterrupt, ask
+from ._auto import AutoBranch, AutoPoint, read_auto
 from ._ensemble import Ensemble, ensemble
 from ._errors import (
     AnalysisError,
+    BeyondRange,
     ConvergenceError,
     Diagnostic,
     EarlyEnd,
@@ -26,6 +28,7 @@ from ._errors import (
     Problem,
     QuestionError,
 )
+from ._law import TorqueFunction
 from ._model import Driveline, example, from_dict, load, loads
 from ._quantity import Progress
 from ._record import Record
@@ -36,6 +39,9 @@ __version__: str = _halfshaft.version()
 
 __all__ = [
     "AnalysisError",
+    "AutoBranch",
+    "AutoPoint",
+    "BeyondRange",
     "ConvergenceError",
     "Diagnostic",
     "Driveline",
@@ -50,12 +56,14 @@ __all__ = [
     "Record",
     "Result",
     "Table",
+    "TorqueFunction",
     "ensemble",
     "example",
     "from_dict",
     "load",
     "load_result",
     "loads",
+    "read_auto",
     "run_study",
 ]
 

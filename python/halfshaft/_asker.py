@@ -6,6 +6,7 @@ from typing import Any
 
 from . import _halfshaft
 from ._ask import OnInterrupt, ask
+from ._law import Laws, warn_beyond
 from ._quantity import Progress
 from ._result import Result
 from ._words import options
@@ -28,8 +29,13 @@ class Asker:
     def _core(self) -> _halfshaft.Line:
         raise NotImplementedError
 
+    def _laws(self) -> Laws:
+        raise NotImplementedError
+
     def _ask(
         self, verb: str, given: dict[str, Any], progress: Progress, on_interrupt: OnInterrupt
     ) -> Result:
         words, core = options(given), self._core()
-        return ask(lambda tell: core.ask(verb, words, tell), verb, progress, on_interrupt)
+        result = ask(lambda tell: core.ask(verb, words, tell), verb, progress, on_interrupt)
+        warn_beyond(result, self._laws())
+        return result

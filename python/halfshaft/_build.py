@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ._law import TorqueFunction
 from ._words import plain, span
 
 if TYPE_CHECKING:
-    from ._quantity import Quantity
+    from ._law import TorqueLaw
+    from ._quantity import Quantity, Span
 
 Self = TypeVar("Self", bound="Builder")
 
@@ -25,6 +28,9 @@ class Builder:
     def _with_element(self: Self, table: str, keys: dict[str, Any]) -> Self:
         raise NotImplementedError
 
+    def _with_function(self: Self, shaft: str, law: TorqueFunction) -> Self:
+        raise NotImplementedError
+
     def inertia(
         self: Self, name: str, inertia: Quantity, *, damping: Quantity | None = None, **keys: Any
     ) -> Self:
@@ -40,15 +46,47 @@ class Builder:
         )
 
     def shaft(
-        self: Self, name: str, from_: str, to: str, stiffness: Quantity | None = None, **keys: Any
+        self: Self,
+        name: str,
+        from_: str,
+        to: str,
+        stiffness: Quantity | None = None,
+        *,
+        torque: TorqueLaw | None = None,
+        **keys: Any,
     ) -> Self:
         """Adds a shaft between two nodes; ``to="ground"`` holds it.
 
         ``stiffness`` (N·m/rad) and further keys such as ``damping`` (N·m·s/rad), ``cubic``
-        (N·m/rad³), ``clearance`` (rad), ``friction`` (N·m) make up its law.
+        (N·m/rad³), ``clearance`` (rad), ``friction`` (N·m) make up its law. ``torque`` is a function of
+        the twist in place of stiffness and powers, as for :meth:`with_law`.
         """
         ends = {"name": name, "from": from_, "to": to, "stiffness": stiffness}
-        return self._with_element("shaft", {**ends, **keys})
+        if torque is None:
+            return self._with_element("shaft", {**ends, **keys})
+        # The reader wants some law and a torque from it; the function takes its place.
+        stand_in = {**ends, "stiffness": 1 if stiffness is None else stiffness}
+        return self._with_element("shaft", {**stand_in, **keys}).with_law(name, torque)
+
+    def with_law(
+        self: Self,
+        shaft: str,
+        torque: TorqueLaw,
+        *,
+        range: Span | None = None,
+        kinks: Sequence[Quantity] = (),
+    ) -> Self:
+        """The line with the torque (N·m) of a shaft given by a function of its twist (rad).
+
+        ``line.with_law("half-shaft", lambda twist: 6420 * np.sin(twist))``; the function is sampled
+        once, as :class:`TorqueFunction` tells, with its ``range`` and ``kinks``. Damping, friction and
+        preload of the shaft stay. Model files cannot hold such a line; pickles can.
+        """
+        if not isinstance(torque, TorqueFunction):
+            torque = TorqueFunction(torque, range=range, kinks=kinks)
+        elif range is not None or kinks:
+            raise TypeError("range and kinks are those of the TorqueFunction; give it them")
+        return self._with_function(shaft, torque)
 
     def torque(self: Self, name: str, on: str, **keys: Any) -> Self:
         """Adds a torque on a node: ``mean``, ``amplitude`` (N·m), ``order``, ``phase``, ``pulse``, ..."""

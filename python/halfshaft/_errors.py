@@ -130,3 +130,7 @@ class Interrupted(KeyboardInterrupt):
 
 class EarlyEnd(UserWarning):
     """An analysis ended before all was answered; the result holds what was reached."""
+
+
+class BeyondRange(UserWarning):
+    """A twist goes beyond the range that a :class:`TorqueFunction` was asked for."""

@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 _Finding = tuple[str, str, int, int, str, str, str | None]
 _Columns = list[tuple[str, str, npt.NDArray[np.float64]]]
+_Parts = tuple[list[float], list[float], list[list[float]], list[float]]
 _Tell = Callable[[float], object] | None
 
 class Line:
@@ -19,6 +20,9 @@ class Line:
     def load(path: str, settings: Sequence[str]) -> Line: ...
     @staticmethod
     def example() -> tuple[Line, str, str]: ...
+    def with_functions(
+        self, laws: Sequence[tuple[str, Sampled]], addresses: Sequence[str]
+    ) -> Line: ...
     @property
     def name(self) -> str: ...
     @property
@@ -33,6 +37,20 @@ class Line:
         self, verb: str, options: Mapping[str, Any], progress: _Tell = None
     ) -> tuple[Answer, bool]: ...
     def report(self, progress: _Tell = None) -> tuple[Answer, bool]: ...
+
+class Sampled:
+    """A law as the polynomials that a function was sampled into; it never changes."""
+
+    @staticmethod
+    def sample(
+        values: Callable[[npt.NDArray[np.float64]], list[float]],
+        name: str,
+        range: str | None,
+        kinks: Sequence[str],
+    ) -> Sampled: ...
+    @staticmethod
+    def of_parts(parts: _Parts) -> Sampled: ...
+    def parts(self) -> _Parts: ...
 
 class Answer:
     """An answer that never changes; arrays over its numbers keep it alive."""

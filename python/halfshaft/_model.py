@@ -9,7 +9,8 @@ from typing import Any
 
 from . import _halfshaft, _toml
 from ._build import Builder, added
-from ._errors import Diagnostic
+from ._errors import Diagnostic, ModelError
+from ._law import Laws, TorqueFunction
 from ._quantity import Quantity
 from ._questions import Questions
 from ._words import plain, quantity
@@ -33,7 +34,7 @@ class Driveline(Builder, Questions):
     keys of dicts.
     """
 
-    __slots__ = ("_data", "_line", "_source", "_text")
+    __slots__ = ("_data", "_functions", "_line", "_source", "_text")
 
     def __init__(self, name: str = "Driveline", *, description: str | None = None) -> None:
         head = {"format": 1, "name": name, "description": description}
@@ -46,8 +47,10 @@ class Driveline(Builder, Questions):
         _text: str | None = None,
         _source: str = "model",
         _line: _halfshaft.Line | None = None,
+        _functions: Laws | None = None,
     ) -> Driveline:
         self._data, self._text, self._source, self._line = _data, _text, _source, _line
+        self._functions: Laws = _functions or {}
         return self
 
     @classmethod
@@ -55,7 +58,13 @@ class Driveline(Builder, Questions):
         return cls.__new__(cls)._set(**parts)
 
     def _with_element(self, table: str, keys: dict[str, Any]) -> Driveline:
-        return self._make(_data=added(self._tables(), table, keys), _source=self._source)
+        data = added(self._tables(), table, keys)
+        return self._make(_data=data, _source=self._source, _functions=self._functions)
+
+    def _with_function(self, shaft: str, law: TorqueFunction) -> Driveline:
+        functions = {**self._functions, shaft: law}
+        parts = {"_data": self._data, "_text": self._text, "_source": self._source}
+        return self._make(**parts, _functions=functions)
 
     def _tables(self) -> dict[str, Any]:
         if self._data is None:
@@ -64,8 +73,32 @@ class Driveline(Builder, Questions):
 
     def _core(self) -> _halfshaft.Line:
         if self._line is None:
-            self._line = _halfshaft.Line.read(self.to_toml(), self._source, [])
+            self._line = self._read({})
         return self._line
+
+    def _laws(self) -> Laws:
+        return self._functions
+
+    def _read(self, changes: Mapping[str, Quantity]) -> _halfshaft.Line:
+        settings = [f"{address}={quantity(value)}" for address, value in changes.items()]
+        line = _halfshaft.Line.read(self._toml(), self._source, settings)
+        if self._functions:
+            laws = [(shaft, law._core) for shaft, law in self._functions.items()]
+            line = line.with_functions(laws, list(changes))
+        return line
+
+    def _toml(self) -> str:
+        if self._text is None:
+            self._text = _toml.dumps(self._data or {})
+        return self._text
+
+    def _no_file(self, wanted: str) -> None:
+        if self._functions:
+            shafts = ", ".join(self._functions)
+            raise ModelError(
+                f"{wanted} cannot hold the torque of {shafts}, which is a function of Python: pickle the "
+                "line, or give the law by keys of the model file, such as table"
+            )
 
     def validate(self) -> Driveline:
         """The line itself; raises ``ModelError`` with all mistakes where it has any."""
@@ -104,30 +137,34 @@ class Driveline(Builder, Questions):
         ``line.with_(**{"half-shaft.cubic": -500})``; bare numbers are in SI. Raises ``ModelError``
         where an address leads nowhere or a value is not allowed there.
         """
-        data, settings = self._tables(), []
+        data = self._tables()
         changes = {**(values or {}), **more}
-        for address, value in changes.items():
-            settings.append(f"{address}={quantity(value)}")
-        line = _halfshaft.Line.read(self.to_toml(), self._source, settings)
+        line = self._read(changes)
         for address, value in changes.items():
             data = _toml.with_value(data, address, plain(value))
-        return self._make(_data=data, _source=self._source, _line=line)
+        return self._make(
+            _data=data, _source=self._source, _line=line, _functions=self._functions
+        )
 
     def to_toml(self) -> str:
-        """The line as a model file; that of a line that was read is the text as it was read."""
-        if self._text is None:
-            self._text = _toml.dumps(self._data or {})
-        return self._text
+        """The line as a model file; that of a line that was read is the text as it was read.
+
+        Raises ``ModelError`` where a law is a function of Python, which no model file can hold.
+        """
+        self._no_file("a model file")
+        return self._toml()
 
     def to_dict(self) -> dict[str, Any]:
         """The tables of the model file, as lists and dicts of your own."""
+        self._no_file("the tables of a model file")
         tables: dict[str, Any] = plain(self._tables())
         return tables
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the model file (TOML)."""
+        text = self.to_toml()
         with open(path, "w", encoding="utf-8") as file:
-            file.write(self.to_toml())
+            file.write(text)
 
     def sketch(self) -> str:
         """A drawing of the line as SVG."""
@@ -156,7 +193,7 @@ class Driveline(Builder, Questions):
         return hash(self.digest)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self.to_toml(), self._source)
+        return _restored, (self._toml(), self._source, dict(self._functions))
 
     def __copy__(self) -> Driveline:
         return self
@@ -165,8 +202,8 @@ class Driveline(Builder, Questions):
         return self
 
 
-def _restored(text: str, source: str) -> Driveline:
-    return Driveline._make(_text=text, _source=source)
+def _restored(text: str, source: str, functions: Laws | None = None) -> Driveline:
+    return Driveline._make(_text=text, _source=source, _functions=functions)
 
 
 def load(path: str | os.PathLike[str]) -> Driveline:

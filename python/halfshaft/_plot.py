@@ -9,6 +9,8 @@ from typing import Any
 from ._optional import needed
 
 Layout = dict[str, Any]
+_SIDES = {-1: "right", 0: "center", 1: "left"}
+_HEIGHTS = {-1: "top", 0: "center", 1: "bottom"}
 _DASHES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-."}
 _MARKERS = {
     "circle": "o", "square": "s", "diamond": "D", "cross": "P", "x": "X", "triangle-up": "^",
@@ -53,6 +55,10 @@ def static(text: str) -> Any:
             _draw(panel, trace)
     for key in places:
         _finish(panels[_short(key)], layout, layout[key])
+    _lines(panels, layout)
+    _remarks(panels, layout)
+    for link in layout.get("meta", {}).get("linked", []):
+        _second(panels, layout, link)
     drawn.suptitle(_unmarked(layout.get("title", {}).get("text", "")))
     return drawn
 
@@ -99,9 +105,33 @@ def _draw(panel: Any, trace: Layout) -> None:
         shape = _MARKERS.get(str(marker.get("symbol", "circle")).removesuffix("-open"), "o")
         hollow = str(marker.get("symbol", "")).endswith("-open")
         panel.plot(
-            x, y, ls="", marker=shape, color=colour, ms=0.75 * _first(marker.get("size"), 6.0),
-            mfc="none" if hollow else colour, label=label,
+            x, y, ls="", marker=shape, ms=0.75 * _first(marker.get("size"), 6.0), label=label,
+            mfc="none" if hollow else colour, zorder=3, clip_on=trace.get("cliponaxis", True),
+            **_edge(marker, colour),
         )  # fmt: skip
+    if "text" in mode:
+        _write(panel, x, y, trace)
+
+
+def _edge(marker: Layout, colour: Any) -> Layout:
+    """The edge of a marker, of its own colour where it has no other."""
+    line = marker.get("line", {})
+    edge = _colour(line.get("color"))
+    return {"mec": colour if edge is None else edge, "mew": 0.75 * _first(line.get("width"), 1.0)}
+
+
+def _write(panel: Any, x: list[float], y: list[float], trace: Layout) -> None:
+    """Texts beside points."""
+    texts, places = trace.get("text") or [], trace.get("textposition", "top center")
+    listed = places if isinstance(places, list) else [places] * len(texts)
+    for at, text, place in zip(zip(x, y), texts, listed):
+        if text:
+            across = -1 if "left" in place else 1 if "right" in place else 0
+            up = -1 if "bottom" in place else 1 if "top" in place else 0
+            panel.annotate(
+                _unmarked(text), at, xytext=(6 * across, 6 * up), textcoords="offset points",
+                ha=_SIDES[across], va=_HEIGHTS[up], fontsize="small",
+            )  # fmt: skip
 
 
 def _fill(trace: Layout) -> Layout:
@@ -150,6 +180,44 @@ def _finish(panel: Any, layout: Layout, vertical: Layout) -> None:
     panel.set_axisbelow(True)
     if panel.get_legend_handles_labels()[1]:
         panel.legend(fontsize="small")
+
+
+def _lines(panels: Layout, layout: Layout) -> None:
+    """Straight lines from side to side, such as limits."""
+    for shape in layout.get("shapes", []):
+        panel = panels.get(shape.get("yref", ""))
+        if shape.get("type") != "line" or panel is None or shape["y0"] != shape["y1"]:
+            continue
+        width = 0.75 * _first(shape["line"].get("width"), 1.0)
+        colour = _colour(shape["line"].get("color"))
+        dash = _dash(shape["line"].get("dash", "solid"), width)
+        panel.axhline(shape["y0"], color=colour, lw=width, ls=dash)
+
+
+def _remarks(panels: Layout, layout: Layout) -> None:
+    """Texts at a height of a panel."""
+    for remark in layout.get("annotations", []):
+        panel = panels.get(remark.get("yref", ""))
+        if panel is None or not str(remark.get("xref", "")).endswith("domain"):
+            continue
+        panel.text(
+            remark["x"], remark["y"], _unmarked(remark["text"]), fontsize="small",
+            transform=panel.get_yaxis_transform(), color=_colour(remark["font"].get("color")),
+            ha=remark.get("xanchor", "center"), va=remark.get("yanchor", "center"),
+        )  # fmt: skip
+
+
+def _second(panels: Layout, layout: Layout, link: Layout) -> None:
+    """The same axis in another unit, on the other side."""
+    axis = layout.get(link["axis"], {})
+    panel = panels.get(axis.get("anchor", ""))
+    if panel is None or not link["axis"].startswith("x") or link.get("log"):
+        return
+    factor, offset = float(link["factor"]), float(link.get("offset", 0.0))
+    other = panel.secondary_xaxis(
+        "top", functions=(lambda x: factor * x + offset, lambda x: (x - offset) / factor)
+    )
+    other.set_xlabel(_unmarked(axis.get("title", {}).get("text", "")))
 
 
 def _unmarked(text: str) -> str:

@@ -6,7 +6,7 @@ import html
 import json
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from . import _halfshaft
 from ._errors import OutputError
@@ -199,7 +199,7 @@ class Result:
             return NotImplemented
         return self.core == other.core
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__: ClassVar[None]  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self.core.to_json(False),)

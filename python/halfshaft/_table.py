@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ._optional import needed
 
@@ -28,10 +28,16 @@ class Table(Mapping[str, "Column"]):
 
     __slots__ = ("_columns", "title", "units")
 
+    _columns: dict[str, Column]
+    #: Unit of each column.
+    units: dict[str, str]
+    #: Name of the table in its result.
+    title: str
+
     def __init__(self, columns: Iterable[tuple[str, str, Column]], title: str = "") -> None:
         listed = list(columns)
-        self._columns: dict[str, Column] = {name: values for name, _, values in listed}
-        self.units: dict[str, str] = {name: unit for name, unit, _ in listed}
+        self._columns = {name: values for name, _, values in listed}
+        self.units = {name: unit for name, unit, _ in listed}
         self.title = title
 
     def __getitem__(self, name: str) -> Column:
@@ -68,7 +74,7 @@ class Table(Mapping[str, "Column"]):
         pairs = [(self[name], other[name]) for name in self]
         return all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__: ClassVar[None]  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         title = f" {self.title!r}" if self.title else ""

@@ -15,8 +15,10 @@ PYTHON = Path(__file__).resolve().parents[1]
 @pytest.mark.parametrize(
     "path", sorted((PYTHON / "notebooks").glob("*.ipynb")), ids=lambda p: p.stem
 )
-def test_a_notebook_runs(path: Path) -> None:
-    pytest.importorskip("matplotlib")
+def test_a_notebook_runs(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    monkeypatch.chdir(path.parent)
     cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
     names: dict[str, Any] = {"__name__": "__main__"}
     for cell in cells:

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import math
-import os
-import subprocess
-import sysconfig
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import halfshaft
-from halfshaft import Driveline, Result
+from halfshaft import Driveline, Record, Result
 
 K1, K3, DAMPING = 6420.0, -642.0, 90.0
 JM, JL = 0.328 * 5.71**2, 81.6
@@ -91,51 +86,116 @@ def test_verification_agrees(oscillator: Driveline) -> None:
     assert all(point.predicted_stable == point.integrated_stable for point in between)
 
 
-def program() -> Path:
-    """The command-line program that the package brings."""
-    return Path(sysconfig.get_path("scripts")) / f"halfshaft{'.exe' if os.name == 'nt' else ''}"
+def held(stiffness: float, damping: float, amplitude: float, **powers: float) -> Driveline:
+    """One inertia of 1 kg·m² on a shaft to ground."""
+    return (
+        Driveline("line under test")
+        .inertia("disc", 1)
+        .shaft("spring", "disc", "ground", stiffness, damping=damping, **powers)
+        .torque("drive", "disc", amplitude=amplitude)
+    )
+
+
+def located(answer: Result, kind: str) -> list[Record]:
+    """Special points of a kind by ascending speed."""
+    points = [p for branch in answer.branches for p in branch.special_points if p.kind == kind]
+    assert all(point.status == "located" for point in points)
+    return sorted(points, key=lambda point: float(point.frequency))
+
+
+def test_folds_of_the_duffing_oscillators() -> None:
+    # Source: AUTO-07p and an independent harmonic balance, as in the Rust test.
+    d1 = held(1, 0.05, 0.18, cubic=0.1).resonance(frequency=(0.2, 1.8), tolerance=1e-8)
+    folds = located(d1, "fold")
+    assert [p.frequency for p in folds] == pytest.approx([1.1157002518, 1.2696019555], rel=5e-11)
+    swings = [p["spring.twist.harmonic1"] for p in folds]
+    assert swings == pytest.approx([1.08187032, 2.82501671], rel=5e-9)
+    d2 = held(1, 0.04, 0.015, cubic=1).resonance(frequency=(0.8, 1.3), tolerance=1e-8)
+    found = [p.frequency for p in located(d2, "fold")]
+    assert found == pytest.approx([1.0439137088, 1.0492623992], rel=5e-11)
+
+
+def test_folds_converge_with_the_harmonics_as_tabulated() -> None:
+    # Source: the same programs with few harmonics.
+    line = held(1, 0.05, 0.18, cubic=0.1)
+    for count, speed in ((1, 1.2675369595), (3, 1.2696000321), (5, 1.2696019544)):
+        answer = line.resonance(frequency=(0.9, 1.6), harmonics=count)
+        assert located(answer, "fold")[1].frequency == pytest.approx(speed, rel=5e-11)
+
+
+def test_an_absorber_has_neimark_sacker_points() -> None:
+    # Source: the same programs.
+    line = (
+        Driveline("Absorber")
+        .inertia("main", 1)
+        .inertia("absorber", 0.05)
+        .shaft("ground spring", "main", "ground", 1, damping=0.002, cubic=1)
+        .shaft("link", "main", "absorber", 0.0453, damping=0.013, cubic=0.0042)
+        .torque("drive", "main", amplitude=0.11)
+    )
+    answer = line.resonance(frequency=(0.9, 1.4), tolerance=1e-8)
+    pairs = [p.frequency for p in located(answer, "neimark-sacker")]
+    assert pairs == pytest.approx([1.1127112391, 1.1957366691], rel=5e-10)
+    folds = [p.frequency for p in located(answer, "fold")]
+    assert folds == pytest.approx([1.2062194574, 1.2146262252], rel=5e-10)
+
+
+def test_cusps_are_the_thresholds_of_the_theory(oscillator: Driveline) -> None:
+    # Source: the printed thresholds with 40 digits (mpmath): f_c, α_c, β_c.
+    for parameter, expected in (
+        (("excitation.amplitude", 1, 20), [6.783767049483465]),
+        (("spring.cubic", -1, 1), [-0.3124723736414551, 0.3124723736414551]),
+        (("spring.damping", 0.01, 0.2), [0.12317802398342803]),
+    ):
+        points = oscillator.folds(method="averaged", parameter=parameter).special_points
+        assert sorted(p[parameter[0]] for p in points) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_published_shock_has_its_reference_velocity(line: Driveline) -> None:
+    # Source: the reference transients of the published equation.
+    other = line.with_(**{"half-shaft.cubic": 642})
+    answer = other.shock(
+        method="published", initial={"half-shaft.twist": "1 rad"}, tolerance=1e-12
+    )
+    metrics = answer.metrics.shafts["half-shaft"]
+    assert metrics.first_rate_peak == pytest.approx(-11.375838, abs=1e-6)
+    assert metrics.first_rate_peak_time == pytest.approx(0.117, abs=1e-3)
 
 
 @pytest.mark.parametrize(
-    ("question", "keywords", "flags"),
+    ("inertias", "stiffnesses", "hertz"),
     [
-        ("static", {}, []),
-        ("modes", {}, []),
-        ("campbell", {"this_gear": True}, ["--this-gear"]),
-        ("shock", {"duration": "0.5s"}, ["--duration", "0.5s"]),
+        ([211.4, 8.3], [9_775_000], [0, 176.0767468]),
         (
-            "resonance",
-            {"method": "averaged", "frequency": (24.0, 27.0)},
-            ["--method", "averaged", "--frequency", "24..27"],
-        ),
-        (
-            "folds",
-            {"method": "averaged", "parameter": ("engine torque.amplitude", 100, 2000)},
-            ["--method", "averaged", "--parameter", "engine torque.amplitude=100..2000"],
-        ),
-        (
-            "simulate",
-            {"duration": 1, "frequency": "4Hz", "initial": {"half-shaft.twist": 0.5}},
-            ["--duration", "1", "--frequency", "4Hz", "--initial", "half-shaft.twist=0.5"],
+            [0.0035, 0.0035, 0.0035, 0.15, 0.05],
+            [12_000, 12_000, 14_000, 10_000],
+            [0, 81.20762902, 141.2140714, 378.9529539, 536.3632829],
         ),
     ],
 )
-def test_every_number_equals_that_of_the_program(
-    line: Driveline, question: str, keywords: dict[str, object], flags: list[str]
+def test_chains_have_the_published_frequencies(
+    inertias: list[float], stiffnesses: list[float], hertz: list[float]
 ) -> None:
-    # Source: the program's JSON; texts are equal only where every bit is.
-    command = [str(program()), question, "--json", "--quiet", *flags]
-    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    answer = getattr(line, question)(**keywords)
-    assert answer.to_json() == told
-    assert answer.to_dict() == json.loads(told)
-    for table in answer.tables.values():
-        for name in table:
-            assert table[name].dtype == np.float64
+    # Source: openTorsion 0.3.2 and SciPy; Friswell and others (2010), example 9.7.1.
+    line = Driveline("chain")
+    for number, inertia in enumerate(inertias):
+        line = line.inertia(f"J{number}", inertia)
+    for number, stiffness in enumerate(stiffnesses):
+        line = line.shaft(f"k{number}", f"J{number}", f"J{number + 1}", stiffness)
+    found = [mode.frequency / math.tau for mode in line.modes().modes]
+    assert found[0] == 0 and found[1:] == pytest.approx(hertz[1:], rel=1e-9)
 
 
-def test_the_program_is_whole() -> None:
-    done = subprocess.run([str(program()), "--version"], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == f"halfshaft {halfshaft.__version__}"
-    wrong = subprocess.run([str(program()), "static", "nowhere.toml"], capture_output=True)
-    assert wrong.returncode == 2
+def test_states_lead_where_their_motions_go() -> None:
+    # Source: each motion by itself, integrated until it repeats.
+    line = held(679, 0.0952, 15, cubic=-0.679)
+    keywords = {"grid": 3, "window": ((-3, 3), (-80, 80))}
+    answer = line.basins(frequency=25.75, **keywords)  # type: ignore[arg-type]
+    swings = [a["values"]["spring.twist.amplitude"] for a in answer.attractors]
+    grid = answer.grid
+    for rate, row in zip(grid.rate, grid.attractor, strict=True):
+        for twist, number in zip(grid.twist, row, strict=True):
+            start = {"spring.twist": twist, "spring.twist_rate": rate}
+            run = line.simulate(duration=150, frequency=25.75, initial=start, step=0.01).table
+            reached = np.abs(run["spring.twist"][-1000:]).max()
+            assert reached == pytest.approx(swings[number], rel=0.03)

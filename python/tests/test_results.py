@@ -105,6 +105,12 @@ def test_figures_can_be_seen(line: Driveline, resonance: Result) -> None:
         for index, _ in enumerate(answer.figures):
             assert len(answer.plot(index).data) > 0
             assert len(answer.plot_static(index).axes) > 0
+    drawn = line.static().plot_static()
+    # What stands beside the curves in the program's own figures: limits, points with their names.
+    assert any("carries at most" in text.get_text() for text in drawn.axes[0].texts)
+    points = [one for one in drawn.axes[0].lines if one.get_marker() == "o"]
+    assert points and all(one.get_markeredgecolor() not in ("white", "#ffffff") or
+                          one.get_markerfacecolor() not in ("white", "#ffffff") for one in points)
     assert resonance.svg().startswith("<?xml") or "<svg" in resonance.svg()
     assert resonance.png()[:4] == b"\x89PNG"
     html = resonance._repr_html_()
@@ -113,6 +119,18 @@ def test_figures_can_be_seen(line: Driveline, resonance: Result) -> None:
     assert "<table>" in resonance.table._repr_html_()
     with pytest.raises(LookupError, match="there is no figure"):
         resonance.plot("nothing")
+
+
+def test_the_first_plot_takes_three_lines(oscillator: Driveline, tmp_path: Path) -> None:
+    pytest.importorskip("plotly")
+    oscillator.save(tmp_path / "my-line.toml")
+    lines = """import halfshaft
+line = halfshaft.load("my-line.toml")
+line.resonance(frequency="3Hz..5Hz").plot()""".splitlines()
+    names: dict[str, Any] = {}
+    script = "\n".join([*lines[:-1], f"figure = {lines[-1]}"])
+    exec(script.replace("my-line.toml", str(tmp_path / "my-line.toml")), names)
+    assert len(lines) == 3 and len(names["figure"].data[0].x) > 50
 
 
 def test_a_study_is_a_result(tmp_path: Path) -> None:

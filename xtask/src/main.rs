@@ -18,12 +18,12 @@ use run::{Outcome, cargo, heading};
 const USAGE: &str = "usage: cargo xtask TASK
 
   test        everything that CI checks: format, house rules, generated files, lints, docs, tests,
-              the README's commands, the report in a browser, a minute of fuzzing
+              the README's commands, the report in a browser, the Python package, a minute of fuzzing
   tidy        the house rules alone
   generate    write what is generated: schema, reference pages, example figures, README output
   readme      the README's commands alone
   page        the report in a headless browser alone
-  python      the Python package alone: wheel, types, tests (needs Python 3.10 or newer)
+  python      the Python package alone: wheel, import, types, tests (needs Python 3.10 or newer)
   fuzz        a minute of fuzzing all that reads text (needs a nightly toolchain)
   bench       all criterion benches
 ";
@@ -80,6 +80,8 @@ fn test() -> Outcome {
     readme::check()?;
     heading("report in a browser");
     page::run()?;
+    heading("Python package");
+    python::run()?;
     heading("fuzzing");
     fuzz::run()
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::run::{Outcome, finish, halfshaft, has, target};
+use crate::run::{Outcome, apt_install, finish, halfshaft, has, target};
 
 const BROWSERS: &[&str] = &["chromium", "chromium-browser", "google-chrome"];
 
@@ -88,12 +88,7 @@ fn find_browser() -> Option<&'static str> {
     let present = || BROWSERS.iter().copied().find(|browser| has(browser, &["--version"]));
     present().or_else(|| {
         println!("installing a browser");
-        let install =
-            "apt-get update -qq && apt-get install -y -qq --no-install-recommends chromium";
-        let installed = Command::new("bash")
-            .args(["-c", &format!("({install}) >/dev/null 2>&1")])
-            .status()
-            .is_ok_and(|status| status.success());
+        let installed = apt_install("chromium");
         if installed { present() } else { None }
     })
 }

@@ -6,7 +6,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Outcome, finish, has, root, target};
+use std::time::Instant;
+
+use crate::run::{Outcome, apt_install, finish, has, root, target};
+
+/// Programs that may be Python; the first that is new enough and can make environments is taken.
+const PYTHONS: &[&str] =
+    &["python3", "python", "python3.14", "python3.13", "python3.12", "python3.11", "python3.10"];
+/// Succeeds in a Python that can do what is needed here.
+const FITS: &str = "import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 10))";
+/// Largest wheel, bytes.
+const LARGEST_WHEEL: u64 = 15_000_000;
+/// Longest time that Python may take with `import halfshaft`, beyond that with nothing, s.
+const LONGEST_IMPORT: f64 = 0.15;
 
 /// What builds the wheel.
 const BUILDER: &[&str] = &["maturin>=1.16,<2"];
@@ -20,6 +32,8 @@ const FOR_TESTS: &[&str] = &[
     "pint>=0.23",
     "plotly>=6",
     "pyarrow>=14",
+    // With the JavaScript engine that it needs, as a wheel too.
+    "pyright[nodejs]>=1.1.400",
     "pytest>=8",
     "tqdm>=4.60",
     "xarray>=2023.12",
@@ -34,26 +48,63 @@ pub fn run() -> Outcome {
     imports_alone(&folder, &wheel)?;
     let tests = environment(&folder.join("tests"), FOR_TESTS)?;
     install(&tests, &wheel)?;
+    types(&folder, &tests)?;
     let settings = root().join("pyproject.toml");
-    let mut types = python(&tests, &folder, &["-m", "mypy", "--config-file"]);
-    types.arg(&settings).arg(root().join("python/examples"));
-    finish(&mut types, "mypy of the examples")?;
-    let mut types = python(&tests, &folder, &["-m", "mypy", "--config-file"]);
-    finish(types.arg(&settings).args(["--package", "halfshaft"]), "mypy of the package")?;
     // Not from the root, where Python would find the sources before the wheel.
     let mut suite = python(&tests, &folder, &["-m", "pytest", "-c"]);
     suite.arg(&settings).arg("--rootdir").arg(root()).arg(root().join("python/tests"));
     finish(&mut suite, "pytest")
 }
 
-/// The wheel with numpy and nothing else: it imports, answers, and its program runs.
+/// Types of the package as it is installed and of the examples, by both checkers.
+fn types(folder: &Path, tests: &Path) -> Outcome {
+    let settings = root().join("pyproject.toml");
+    let mut mypy = python(tests, folder, &["-m", "mypy", "--config-file"]);
+    finish(mypy.arg(&settings).arg(root().join("python/examples")), "mypy of the examples")?;
+    let mut mypy = python(tests, folder, &["-m", "mypy", "--config-file"]);
+    finish(mypy.arg(&settings).args(["--package", "halfshaft"]), "mypy of the package")?;
+    let mut pyright = python(tests, folder, &["-m", "pyright", "--pythonpath"]);
+    finish(pyright.arg(tests).arg("--project").arg(&settings), "pyright")?;
+    // Every type that a user may meet is written down.
+    let complete = ["-m", "pyright", "--verifytypes", "halfshaft", "--ignoreexternal"];
+    let mut whole = python(tests, folder, &complete);
+    let told = whole.output().map_err(|error| format!("pyright --verifytypes: {error}"))?;
+    if told.status.success() {
+        return Ok(());
+    }
+    let told = String::from_utf8_lossy(&told.stdout).into_owned();
+    Err(format!("types of the package are not complete:\n{told}"))
+}
+
+/// The wheel with numpy and nothing else: it is small, imports fast, answers, and its program runs.
 fn imports_alone(folder: &Path, wheel: &Path) -> Outcome {
+    let size = fs::metadata(wheel).map_err(|error| format!("{}: {error}", wheel.display()))?.len();
+    if size > LARGEST_WHEEL {
+        return Err(format!("the wheel has {size} bytes, more than {LARGEST_WHEEL}"));
+    }
     let clean = environment(&folder.join("clean"), &["numpy>=1.24"])?;
     install(&clean, wheel)?;
     let told = "import halfshaft; print(halfshaft.example().static().table)";
     finish(&mut python(&clean, folder, &["-c", told]), "import halfshaft")?;
     let program = ["-m", "halfshaft", "static", "--quiet"];
-    finish(&mut python(&clean, folder, &program), "python -m halfshaft")
+    finish(&mut python(&clean, folder, &program), "python -m halfshaft")?;
+    let import = best(&clean, folder, "import halfshaft")? - best(&clean, folder, "pass")?;
+    if import > LONGEST_IMPORT {
+        return Err(format!("import halfshaft takes {import:.3} s, more than {LONGEST_IMPORT} s"));
+    }
+    println!("wheel: {:.1} MB, imported in {:.0} ms", size as f64 / 1e6, 1e3 * import);
+    Ok(())
+}
+
+/// The shortest of several times that Python takes for a line, s: others have waited for the machine.
+fn best(interpreter: &Path, folder: &Path, line: &str) -> Result<f64, String> {
+    let mut best = f64::INFINITY;
+    for _ in 0..7 {
+        let start = Instant::now();
+        finish(&mut python(interpreter, folder, &["-c", line]), line)?;
+        best = best.min(start.elapsed().as_secs_f64());
+    }
+    Ok(best)
 }
 
 /// A virtual environment with some packages, made anew where they are others than last time.
@@ -63,12 +114,30 @@ fn environment(folder: &Path, packages: &[&str]) -> Result<PathBuf, String> {
     if fs::read_to_string(&stamp).is_ok_and(|known| known == wanted) {
         return Ok(inside);
     }
-    let outside = ["python3", "python"].into_iter().find(|name| has(name, &["--version"]));
-    let outside = outside.ok_or("Python 3.10 or newer is needed, as python3 in the PATH")?;
+    let outside = outside()?;
     finish(Command::new(outside).args(["-m", "venv", "--clear"]).arg(folder), "python -m venv")?;
     finish(pip(&inside).arg("install").args(packages), "pip install")?;
     fs::write(&stamp, wanted).map_err(|error| format!("{}: {error}", stamp.display()))?;
     Ok(inside)
+}
+
+/// A Python that fits; installs Debian's where that is possible.
+fn outside() -> Result<&'static str, String> {
+    let fits = |name: &&&str| has(name, &["-c", FITS]);
+    let present = || PYTHONS.iter().find(fits).copied();
+    if let Some(found) = present() {
+        return Ok(found);
+    }
+    println!("installing Python");
+    // Where this fails, the sentence below says what is wanted.
+    let _ = apt_install("python3-venv");
+    present().ok_or_else(|| {
+        format!(
+            "Python 3.10 or newer with the modules venv and ensurepip is needed, as one of {} in the PATH \
+             (on Debian: apt-get install python3-venv)",
+            PYTHONS.join(", ")
+        )
+    })
 }
 
 fn interpreter(folder: &Path) -> PathBuf {
@@ -110,9 +179,16 @@ fn install(interpreter: &Path, wheel: &Path) -> Outcome {
     finish(&mut command, "pip install of the wheel")
 }
 
-/// Python in a folder that has no package of ours in it.
+/// Python in a folder that has no package of ours in it, with the environment as where programs are.
 fn python(interpreter: &Path, folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(interpreter);
+    let own = interpreter.parent().map(Path::to_path_buf);
+    let known = std::env::var_os("PATH").unwrap_or_default();
+    let all = own.into_iter().chain(std::env::split_paths(&known));
+    // Without it pyright would look at another Python's packages.
+    if let Ok(path) = std::env::join_paths(all) {
+        command.env("PATH", path);
+    }
     command.current_dir(folder).args(arguments);
     command
 }

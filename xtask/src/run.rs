@@ -49,6 +49,15 @@ pub fn has(program: &str, arguments: &[&str]) -> bool {
     Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
 }
 
+/// Installs a package of Debian; whether that could be done.
+pub fn apt_install(package: &str) -> bool {
+    let install = "apt-get update -qq && apt-get install -y -qq --no-install-recommends";
+    Command::new("bash")
+        .args(["-c", &format!("({install} {package}) >/dev/null 2>&1")])
+        .status()
+        .is_ok_and(|status| status.success())
+}
+
 /// The program itself, in release: built if need be.
 pub fn halfshaft() -> Result<PathBuf, String> {
     cargo(&["build", "--release", "--quiet"])?;

@@ -262,7 +262,9 @@ impl Motion<'_> {
                 let (number, drive) = law.stage(after);
                 EventKind::Stage { number, drive }
             }
-            TorqueLaw::Table(_) | TorqueLaw::Polynomial(_) => EventKind::Point,
+            TorqueLaw::Table(_) | TorqueLaw::Polynomial(_) | TorqueLaw::Function(_) => {
+                EventKind::Point
+            }
         };
         self.set_modes(Arc::new(modes));
         kind

@@ -24,8 +24,8 @@ pub mod units;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity, Source};
 pub use driveline::{
-    ChangeError, Driveline, End, Group, LockedLoop, Network, Node, Topology, TopologyError,
-    TreeShaft,
+    ChangeError, Driveline, End, FunctionError, Group, LockedLoop, Network, Node, Topology,
+    TopologyError, TreeShaft,
 };
 pub use format::{FileError, SetFlag, read_file, read_model};
 pub use parameter::{AddressError, Parameter};

@@ -33,15 +33,20 @@ pub fn findings(found: &Diagnostics) -> Vec<Finding> {
             Severity::Warning => "warning",
         };
         let excerpt = source.excerpt(&item.span).to_owned();
-        let (file, message) = (source.name.clone(), item.message.clone());
+        let (file, message) = (known_here(&source.name), item.message.clone());
         Some((severity, file, line, column, message, excerpt, item.hint.clone()))
     };
     found.items.iter().filter_map(finding).collect()
 }
 
+/// Text about the flag of the command line that `with_` fills, in the words of Python.
+fn known_here(text: &str) -> String {
+    text.replace("--set", "with_")
+}
+
 /// `ModelError` with all findings.
 pub fn diagnostics(py: Python<'_>, found: &Diagnostics) -> PyErr {
-    let message = format!("the model has mistakes:\n{}", found.plain().trim_end());
+    let message = known_here(&format!("the model has mistakes:\n{}", found.plain().trim_end()));
     exception(py, "ModelError", (message, findings(found)))
 }
 

@@ -9,6 +9,7 @@ mod answer;
 mod columns;
 mod ensemble;
 mod errors;
+mod function;
 mod line;
 mod options;
 mod shared;
@@ -26,6 +27,8 @@ mod _halfshaft {
     use super::answer::PyAnswer;
     #[pymodule_export]
     use super::ensemble::Ensemble;
+    #[pymodule_export]
+    use super::function::Sampled;
     #[pymodule_export]
     use super::line::Line;
     #[pymodule_export]

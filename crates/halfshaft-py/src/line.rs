@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 
 use crate::answer::PyAnswer;
 use crate::errors::{self, Finding};
+use crate::function::Sampled;
 use crate::options;
 use crate::shared::Watch;
 use crate::work;
@@ -44,6 +45,30 @@ impl Line {
     fn example(py: Python<'_>) -> PyResult<(Self, String, String)> {
         let source = halfshaft::model::embedded::example();
         Ok((Self::of(py, load_embedded(&[]))?, source.name, source.text))
+    }
+
+    /// The line with laws from functions, by names of shafts. All of `addresses`, which were set before,
+    /// must still lead somewhere.
+    fn with_functions(
+        &self,
+        py: Python<'_>,
+        laws: Vec<(String, PyRef<'_, Sampled>)>,
+        addresses: Vec<String>,
+    ) -> PyResult<Self> {
+        let mut line = self.line.clone();
+        let mut found = Vec::new();
+        for (shaft, sampled) in &laws {
+            match line.with_function(shaft, sampled.law.clone()) {
+                Ok(with) => line = with,
+                Err(error) => found.push(error.to_string()),
+            }
+        }
+        let lost = addresses.iter().filter_map(|address| line.parameter(address).err());
+        found.extend(lost.map(|error| format!("{error}: {}", error.hint(&line))));
+        if !found.is_empty() {
+            return Err(errors::model(py, found.join("\n")));
+        }
+        Ok(Self { line, warnings: self.warnings.clone() })
     }
 
     /// Name of the line.

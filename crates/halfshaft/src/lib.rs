@@ -16,6 +16,7 @@
 //!
 //! Faces (command line, Python, web) use this crate and no other of the workspace.
 
+mod function;
 mod load;
 mod output;
 mod parquet;
@@ -32,6 +33,7 @@ pub use halfshaft_present as present;
 pub use halfshaft_results as results;
 pub use halfshaft_results::Answer;
 
+pub use function::{LawError, SampleError, Sampling, sample_law, with_law};
 pub use load::{LoadError, Loaded, load, load_embedded};
 pub use output::write;
 pub use report::report;

@@ -12,8 +12,12 @@ pub(super) fn shaft(
 ) -> CheckedShaft {
     // Stages and tables have no one stiffness.
     let stiffness = match &connection.law {
-        TorqueLaw::PiecewiseLinear(_) | TorqueLaw::Table(_) => connection.law.stiffness(0.0),
-        _ if shaft.stages.is_empty() && shaft.table.is_none() => shaft.stiffness_nm_per_rad,
+        TorqueLaw::PiecewiseLinear(_) | TorqueLaw::Table(_) | TorqueLaw::Function(_) => {
+            connection.law.stiffness(0.0)
+        }
+        _ if shaft.stages.is_empty() && shaft.table.is_none() && shaft.function.is_none() => {
+            shaft.stiffness_nm_per_rad
+        }
         law => law.stiffness(0.0),
     };
     let mut terms = polynomial_terms(shaft);
@@ -21,6 +25,7 @@ pub(super) fn shaft(
     terms.extend(stages("stages", &shaft.stages));
     terms.extend(stages("coast stages", &shaft.coast_stages));
     terms.extend(table(shaft));
+    terms.extend(function(shaft));
     terms.extend(others(shaft));
     CheckedShaft {
         name: shaft.name.clone(),
@@ -112,6 +117,16 @@ fn table(shaft: &Shaft) -> Option<NonlinearTerm> {
     let effect =
         format!("measured from {first:.5} to {last:.5} rad, straight with the slope there beyond");
     Some(term("table", count, "points", effect))
+}
+
+fn function(shaft: &Shaft) -> Option<NonlinearTerm> {
+    let law = shaft.function.as_ref()?;
+    let (first, last) = law.range_rad();
+    #[expect(clippy::cast_precision_loss, reason = "a few hundred at most")]
+    let count = (law.pieces().len() - 2) as f64;
+    let effect =
+        format!("sampled from {first:.5} to {last:.5} rad, straight with the slope there beyond");
+    Some(term("function", count, "polynomials", effect))
 }
 
 fn others(shaft: &Shaft) -> impl Iterator<Item = NonlinearTerm> {

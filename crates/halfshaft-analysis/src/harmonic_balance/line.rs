@@ -99,7 +99,7 @@ impl Line {
     pub(super) fn has_kinks(&self) -> bool {
         self.twists.iter().any(|twist| {
             let connection = &self.equations.connections[twist.connection];
-            connection.law.polynomial().is_none() || connection.friction.is_some()
+            !connection.law.is_smooth() || connection.friction.is_some()
         })
     }
 

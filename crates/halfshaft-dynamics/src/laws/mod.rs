@@ -6,6 +6,7 @@
 mod clearance;
 mod describing;
 mod friction;
+mod function;
 mod of_element;
 mod one_sided;
 mod pieces;
@@ -19,6 +20,7 @@ use halfshaft_numerics::polynomial::Polynomial;
 pub use clearance::ClearanceLaw;
 pub use describing::DescribingFunction;
 pub use friction::{Friction, FrictionDescribingFunction};
+pub use function::FunctionLaw;
 pub(crate) use of_element::{law_of_mesh, law_of_shaft};
 pub use one_sided::OneSidedContact;
 pub use pieces::{Piece, Pieces};
@@ -39,6 +41,8 @@ pub enum TorqueLaw {
     OneSided(OneSidedContact),
     /// Measured points.
     Table(TableLaw),
+    /// A function of the host program.
+    Function(FunctionLaw),
 }
 
 /// Share of a swing's damping that acts in contact, see [`TorqueLaw::contact_share`].
@@ -61,6 +65,7 @@ macro_rules! of_each {
             TorqueLaw::PiecewiseLinear($name) => $call,
             TorqueLaw::OneSided($name) => $call,
             TorqueLaw::Table($name) => $call,
+            TorqueLaw::Function($name) => $call,
         }
     };
 }
@@ -89,6 +94,7 @@ impl TorqueLaw {
             Self::PiecewiseLinear(_) => 0.0,
             Self::OneSided(law) => law.curvature(x),
             Self::Table(law) => law.curvature(x),
+            Self::Function(law) => law.curvature(x),
         }
     }
 
@@ -99,7 +105,9 @@ impl TorqueLaw {
         match self {
             Self::Clearance(law) => x.abs() > law.half_gap(),
             Self::OneSided(law) => x > law.contact_twist(),
-            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) => true,
+            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) | Self::Function(_) => {
+                true
+            }
         }
     }
 
@@ -112,6 +120,13 @@ impl TorqueLaw {
     /// Torque and tangent stiffness at many twists: one look at the law for all of them. The
     /// slices have one length.
     pub fn evaluate(&self, twists: &[f64], torque: &mut [f64], stiffness: &mut [f64]) {
+        if let Self::Function(law) = self {
+            // One look for both: finding the polynomial is most of the work.
+            for ((x, torque), stiffness) in twists.iter().zip(torque).zip(stiffness) {
+                (*torque, *stiffness) = law.both(*x);
+            }
+            return;
+        }
         of_each!(self, law => {
             for ((x, torque), stiffness) in twists.iter().zip(torque).zip(stiffness) {
                 *torque = law.torque(*x);
@@ -128,6 +143,7 @@ impl TorqueLaw {
             Self::Clearance(law) => law.switching_twists(),
             Self::PiecewiseLinear(law) => law.switching_twists(),
             Self::OneSided(law) => law.switching_twists(),
+            Self::Function(law) => law.kinks(),
         }
     }
 
@@ -135,6 +151,16 @@ impl TorqueLaw {
     /// torque is `torque(0) + stiffness(0) x`.
     pub fn is_linear(&self) -> bool {
         of_each!(self, law => law.is_linear())
+    }
+
+    /// Whether all derivatives of the torque are continuous: a polynomial, or a function without kinks,
+    /// whose polynomials join to rounding.
+    pub fn is_smooth(&self) -> bool {
+        match self {
+            Self::Polynomial(_) => true,
+            Self::Function(law) => law.kinks().is_empty(),
+            _ => false,
+        }
     }
 
     /// Whether `T(-x) = -T(x)`.
@@ -150,6 +176,7 @@ impl TorqueLaw {
             Self::PiecewiseLinear(_) => "multi-stage",
             Self::OneSided(_) => "one-sided contact",
             Self::Table(_) => "table",
+            Self::Function(_) => "function",
         }
     }
 
@@ -205,6 +232,7 @@ impl TorqueLaw {
                 let cubic = |(origin, coefficients)| (origin, Polynomial::new(coefficients));
                 Pieces::new(law.points(), law.cubic_pieces().map(cubic))
             }
+            Self::Function(law) => Pieces::new(law.breaks(), law.polynomials()),
         }
     }
 
@@ -221,7 +249,7 @@ impl TorqueLaw {
             Self::OneSided(law) => {
                 Self::OneSided(OneSidedContact::new(law.contact_twist(), &unit, 0.0))
             }
-            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) => {
+            Self::Polynomial(_) | Self::PiecewiseLinear(_) | Self::Table(_) | Self::Function(_) => {
                 return ContactShare { share: 1.0, by_mean: 0.0, by_amplitude: 0.0 };
             }
         };

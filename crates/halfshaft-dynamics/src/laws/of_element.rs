@@ -3,7 +3,8 @@
 use halfshaft_model::elements::{Gear, Shaft};
 
 use super::{
-    ClearanceLaw, OneSidedContact, PiecewiseLinearLaw, PolynomialLaw, Stage, TableLaw, TorqueLaw,
+    ClearanceLaw, FunctionLaw, OneSidedContact, PiecewiseLinearLaw, PolynomialLaw, Stage, TableLaw,
+    TorqueLaw,
 };
 
 /// The law that a shaft's keys describe. What is a straight line is told as a polynomial, whatever
@@ -15,7 +16,9 @@ pub(crate) fn law_of_shaft(shaft: &Shaft) -> TorqueLaw {
         let points: Vec<(f64, f64)> = table.points().collect();
         TableLaw::new(&points, preload)
     });
-    let law = if let Some(table) = table {
+    let law = if let Some(sampled) = &shaft.function {
+        TorqueLaw::Function(FunctionLaw::new(sampled, preload))
+    } else if let Some(table) = table {
         TorqueLaw::Table(table)
     } else if !shaft.stages.is_empty() {
         let coast = if shaft.coast_stages.is_empty() { &shaft.stages } else { &shaft.coast_stages };

@@ -12,7 +12,8 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use crate::elements::{Damper, Engine, Gear, Inertia, Shaft, Torque, WholeLine};
+use crate::diagnostic::did_you_mean;
+use crate::elements::{Damper, Engine, Gear, Inertia, SampledLaw, Shaft, Torque, WholeLine};
 use crate::parameter::{AddressError, Parameter, resolve};
 
 pub use network::{End, LockedLoop, Network, TreeShaft};
@@ -90,6 +91,25 @@ pub enum ChangeError {
         value: f64,
         /// The loop.
         reason: Box<LockedLoop>,
+    },
+}
+
+/// Why a shaft cannot have a law from a function.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FunctionError {
+    /// No shaft has that name.
+    #[error("no shaft is named \"{name}\": {hint}")]
+    NoShaft {
+        /// The name as given.
+        name: String,
+        /// A name like it, or those that there are.
+        hint: String,
+    },
+    /// The shaft is a bar, whose pieces twist one by one.
+    #[error("\"{name}\" is given by its dimensions, which are its law: leave them out")]
+    Bar {
+        /// Name of the shaft.
+        name: String,
     },
 }
 
@@ -207,6 +227,25 @@ impl Driveline {
         if parameter.changes_gears() {
             line.check_turning(parameter, value)?;
         }
+        Ok(line)
+    }
+
+    /// The same line with the law of a shaft given by a function; its damping, friction and preload stay.
+    ///
+    /// # Errors
+    /// [`FunctionError`] where there is no such shaft or it is a bar.
+    pub fn with_function(&self, shaft: &str, law: SampledLaw) -> Result<Self, FunctionError> {
+        let Some(index) = self.shafts.iter().position(|known| known.name == shaft) else {
+            let names = || self.shafts.iter().map(|shaft| shaft.name.as_str());
+            let all = || format!("there is {}", names().collect::<Vec<_>>().join(", "));
+            let hint = did_you_mean(shaft, names()).unwrap_or_else(all);
+            return Err(FunctionError::NoShaft { name: shaft.to_owned(), hint });
+        };
+        if self.shafts[index].dimensions.is_some() {
+            return Err(FunctionError::Bar { name: shaft.to_owned() });
+        }
+        let mut line = self.clone();
+        line.shafts[index] = line.shafts[index].clone().with_function(law);
         Ok(line)
     }
 

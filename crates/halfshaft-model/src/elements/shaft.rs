@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::dimensions::{DIMENSIONS, Dimensions};
 use super::engagement::{ENGAGEMENT, Engagement};
 use super::measured::{MEASURED, MeasuredLaw};
+use super::sampled::SampledLaw;
 use super::stage::{STAGE, Stage};
 use crate::format::{CheckedTable, KeySpec, TableSpec, ValueSpec};
 use crate::units::{QuantityKind, Sign};
@@ -63,6 +64,9 @@ pub struct Shaft {
     /// Measured points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<MeasuredLaw>,
+    /// Law that a function gave, in place of one of the model file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub function: Option<SampledLaw>,
     /// Dry friction torque, N·m.
     #[serde(skip_serializing_if = "is_zero")]
     pub friction_nm: f64,
@@ -252,6 +256,7 @@ impl Shaft {
             stages: stages("stages"),
             coast_stages: stages("coast_stages"),
             table: table.table("table").map(MeasuredLaw::read),
+            function: None,
             friction_nm: table.number_or("friction", 0.0),
             friction_speed_rad_s: table.number_or("friction_speed", FRICTION_SPEED_RAD_S),
             engagement: table.table("engagement").map(Engagement::read),
@@ -280,6 +285,7 @@ impl Shaft {
             stages: Vec::new(),
             coast_stages: Vec::new(),
             table: None,
+            function: None,
             friction_nm: 0.0,
             friction_speed_rad_s: FRICTION_SPEED_RAD_S,
             engagement: None,
@@ -314,6 +320,7 @@ impl Shaft {
         self.stages.is_empty()
             && self.coast_stages.is_empty()
             && self.table.is_none()
+            && self.function.is_none()
             && self.dimensions.is_none()
     }
 
@@ -325,7 +332,23 @@ impl Shaft {
             && flat(&self.stages)
             && flat(&self.coast_stages)
             && table.iter().all(|torque| *torque == 0.0)
+            && self.function.as_ref().is_none_or(SampledLaw::is_silent)
             && [self.damping_nm_s_per_rad, self.friction_nm, self.preload_nm] == [0.0; 3]
+    }
+
+    /// The shaft with its law replaced by that of a function; damping, friction and preload stay.
+    pub(crate) fn with_function(self, law: SampledLaw) -> Self {
+        let ends = [self.from.clone(), self.to.clone()];
+        Self {
+            damping_nm_s_per_rad: self.damping_nm_s_per_rad,
+            preload_nm: self.preload_nm,
+            function: Some(law),
+            friction_nm: self.friction_nm,
+            friction_speed_rad_s: self.friction_speed_rad_s,
+            engagement: self.engagement,
+            loss_factor: self.loss_factor,
+            ..Self::linear(self.name, ends, 0.0)
+        }
     }
 
     /// The numeric value behind a key of this element; keys of another law than the shaft's have

@@ -7,14 +7,17 @@
 //! Up to degree 9 a polynomial needs no heap memory; there is no upper limit, but rounding makes
 //! roots of high degrees (beyond about 20) uncertain whatever the method.
 
+mod chebyshev;
 mod first_exit;
 mod horner;
 mod intervals;
 mod refine;
 mod roots;
+mod sampled;
 mod scaling;
 
 pub use first_exit::first_exit;
+pub use sampled::{SampleError, Sampled, sampled};
 
 use crate::small_list::SmallList;
 
