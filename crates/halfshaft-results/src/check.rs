@@ -271,4 +271,21 @@ pub struct CheckResult {
     /// Inertias and stiffnesses reduced to one speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_elastic: Option<MassElasticSheet>,
+    /// What the model says of the line as a whole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<CheckedLine>,
+}
+
+/// Damping of the line as a whole, for linear vibrations, and the speeds at which it is run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckedLine {
+    /// Damping ratio of every elastic mode.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub modal_damping: f64,
+    /// Loss factor of every connection that has none of its own.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub loss_factor: f64,
+    /// Operating range of the excitation speed, rad/s.
+    #[serde(deserialize_with = "crate::number::read")]
+    pub operating: Option<(f64, f64)>,
 }

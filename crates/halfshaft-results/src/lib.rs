@@ -38,7 +38,7 @@ pub use basins::{Attractor, BasinGrid, BasinsResult, ShockSearch, SmallestShock}
 pub use bifurcation::{BifurcationResult, StrobedBranch, SweepJump};
 pub use campbell::{CampbellGear, CampbellResult, CriticalSpeed};
 pub use check::{
-    CheckResult, CheckedBar, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh,
+    CheckResult, CheckedBar, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedLine, CheckedMesh,
     CheckedPulse, CheckedShaft, CheckedTorque, MassElasticSheet, Member, NonlinearTerm,
     ReducedInertia, SheetConnection, SheetInertia,
 };

@@ -5,11 +5,11 @@ mod sheet;
 
 use halfshaft_dynamics::{EquationsOfMotion, NodePlace, Source};
 use halfshaft_model::Driveline;
-use halfshaft_model::elements::{MeanTorque, Pulse, PulseShape};
+use halfshaft_model::elements::{MeanTorque, Pulse, PulseShape, WholeLine};
 use halfshaft_model::question::Question;
 use halfshaft_results::{
-    CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedMesh, CheckedPulse,
-    CheckedTorque, Member, ReducedInertia,
+    CheckResult, CheckedGear, CheckedGrowth, CheckedHarmonic, CheckedLine, CheckedMesh,
+    CheckedPulse, CheckedTorque, Member, ReducedInertia,
 };
 
 use shaft::shaft;
@@ -30,6 +30,7 @@ pub(crate) fn solve(line: &Driveline) -> Result<CheckResult, AnalysisError> {
         grounded: equations.network.grounded,
         degrees_of_freedom: freedom,
         mass_elastic: Some(sheet::sheet(line, whole, &equations)),
+        line: of_the_whole(line.whole()),
         reduced_inertias: reduced(line, &equations),
         gears: line
             .gears()
@@ -67,6 +68,16 @@ pub(crate) fn solve(line: &Driveline) -> Result<CheckResult, AnalysisError> {
             )
             .collect(),
     })
+}
+
+/// What is said of the line as a whole, if anything is.
+fn of_the_whole(whole: &WholeLine) -> Option<CheckedLine> {
+    let told = CheckedLine {
+        modal_damping: whole.modal_damping,
+        loss_factor: whole.loss_factor,
+        operating: whole.operating_rad_s,
+    };
+    (*whole != WholeLine::default()).then_some(told)
 }
 
 fn reduced(line: &Driveline, equations: &EquationsOfMotion) -> Vec<ReducedInertia> {

@@ -1,12 +1,12 @@
 //! What is told of a line.
 
 use halfshaft_results::{
-    CheckResult, CheckedHarmonic, CheckedMesh, CheckedPulse, CheckedShaft, CheckedTorque,
-    MassElasticSheet, ReducedInertia,
+    CheckResult, CheckedHarmonic, CheckedLine, CheckedMesh, CheckedPulse, CheckedShaft,
+    CheckedTorque, MassElasticSheet, ReducedInertia,
 };
 
 use super::{Account, Grid, chain};
-use crate::words::{MISSING, counted, list, number, plain, quantity};
+use crate::words::{MISSING, RPM, counted, list, number, percent, plain, quantity};
 
 /// The whole account.
 pub(crate) fn account(check: &CheckResult) -> Account {
@@ -18,8 +18,27 @@ pub(crate) fn account(check: &CheckResult) -> Account {
     account.lines(chain::lines(check));
     account.figure("sketch");
     account.text([nonlinearities(check)]);
+    account.text(check.line.iter().map(whole_line));
     account.append(elements(check));
     account
+}
+
+/// What holds for the line as a whole.
+fn whole_line(line: &CheckedLine) -> String {
+    let mut told = Vec::new();
+    if line.modal_damping > 0.0 {
+        let damping = percent(line.modal_damping, 4);
+        told.push(format!("modal damping of {damping} in every elastic mode"));
+    }
+    if line.loss_factor > 0.0 {
+        let factor = number(line.loss_factor, 4);
+        told.push(format!("a loss factor of {factor} in what has none of its own"));
+    }
+    if let Some((from, to)) = line.operating {
+        let (from, to) = (number(from * RPM, 5), number(to * RPM, 5));
+        told.push(format!("run from {from} to {to} rpm"));
+    }
+    format!("The line as a whole: {}.", told.join("; "))
 }
 
 /// The tables of the elements.

@@ -69,6 +69,7 @@ pub(crate) const LEGEND: &str = "Plates are inertias, taller for larger ones (by
 ///     }],
 ///     torques: Vec::new(),
 ///     mass_elastic: None,
+///     line: None,
 /// };
 /// // The space before a unit does not break.
 /// let drawing = sketch(&line).replace('\u{a0}', " ");

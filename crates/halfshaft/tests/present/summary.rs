@@ -1,14 +1,14 @@
 //! The plain text: it holds the numbers of the answer, and fits its terminal.
 
-use halfshaft::Answer;
 use halfshaft::model::embedded;
 use halfshaft::present::summary::{WIDTH, text};
 use halfshaft::results::StaticResult;
+use halfshaft::{Answer, Question, Silent, ask};
 
 use super::common::by_hand::{self, DEMAND};
 use super::common::{
     EMBEDDED, HARDENING, OVERLOADED, SCALED, answers, assert_shows, flat, line, number_after,
-    renamed, the_report,
+    renamed, the_report, written,
 };
 
 /// Columns of a terminal: two for the wide letters of East Asia.
@@ -226,4 +226,24 @@ fn what_has_no_answer_is_told() {
     assert!(told.contains("Not answered: modes of vibration, shock and resonance."), "{told}");
     let reason = flat(&report.missing[0].reason.replace('-', "−"));
     assert!(told.to_lowercase().replace('-', "−").contains(&reason.to_lowercase()), "{told}");
+}
+
+// Source: the model: what it says of the line as a whole is said again, and of a line that says nothing of
+// the kind nothing is.
+#[test]
+fn check_tells_what_holds_for_the_line_as_a_whole() {
+    let checked = |lines: &str| {
+        let disc = "format = 1\nname = \"disc\"\n[[inertia]]\nname = \"disc\"\ninertia = 2\n";
+        let rod = "[[shaft]]\nname = \"rod\"\nfrom = \"disc\"\nto = \"ground\"\nstiffness = 50\n";
+        flat(&text(
+            &ask(&written(&format!("{disc}{rod}{lines}")), &Question::Check, &Silent).unwrap(),
+        ))
+    };
+    let told = checked(
+        "[line]\nmodal_damping = \"2 %\"\nloss_factor = 0.01\noperating = \"800 rpm..6000 rpm\"\n",
+    );
+    for part in ["modal damping of 2 %", "a loss factor of 0.01", "run from 800 to 6000 rpm"] {
+        assert!(told.contains(part), "{part} in {told}");
+    }
+    assert!(!checked("").contains("The line as a whole"));
 }
