@@ -81,6 +81,9 @@ def modes(half, peers, count, repeats, damping="none"):
     model = models.written(half.work, f"uniform-{count}-{damping}", f"Uniform chain of {count}", line)
     example = ["modes", count, 4 * repeats] if damping == "none" else None
     rows = [own_row(half, "modes", ["modes", model], example)]
+    if example:
+        alone = Row("halfshaft", "frequencies alone, as of modal_analysis")
+        rows.append(by_itself(alone, lambda: half.seconds(["frequencies", *example[1:]])))
     # Of the ways those that give frequencies and shapes are run as whole processes.
     shapes = {"none": {"opentorsion": {"undamped_modal_analysis": "undamped"}, "ross": {"run_modal": ""},
                        "SciPy": {"eigh": "dense", "eigh_tridiagonal": "tridiagonal"}},

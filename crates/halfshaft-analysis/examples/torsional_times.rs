@@ -1,7 +1,8 @@
 //! Times of `modes` and `forced` of a free chain within the process, for `bench/peers/torsional`.
 //!
-//! `torsional_times modes|forced COUNT REPEATS`: a chain of COUNT inertias of 0.5 kg·m² with shafts of
-//! 2e5 N·m/rad; without damping for `modes`, with 10 N·m·s/rad beside each shaft and four orders on the
+//! `torsional_times modes|frequencies|forced COUNT REPEATS`: a chain of COUNT inertias of 0.5 kg·m² with shafts of
+//! 2e5 N·m/rad; without damping for `modes` and for their
+//! frequencies alone, with 10 N·m·s/rad beside each shaft and four orders on the
 //! first inertia at 1000 speeds for `forced`. One line of JSON: seconds of each repeat, and how many
 //! modes or speeds were told.
 
@@ -9,7 +10,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use halfshaft_analysis::ask;
+use halfshaft_analysis::{ask, natural_frequencies};
 use halfshaft_model::question::{QuestionText, Verb, read};
 use halfshaft_model::{Driveline, Source, read_model};
 use halfshaft_numerics::observer::Silent;
@@ -22,7 +23,7 @@ const SPEEDS: &str = "1000";
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [what, count, repeats] = arguments.as_slice() else {
-        return Err("usage: torsional_times modes|forced COUNT REPEATS".into());
+        return Err("usage: torsional_times modes|frequencies|forced COUNT REPEATS".into());
     };
     let forced = what == "forced";
     let line = chain(count.parse()?, forced)?;
@@ -36,6 +37,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (mut seconds, mut told) = (Vec::new(), 0);
     for _ in 0..repeats.parse::<usize>()? {
         let start = Instant::now();
+        if what == "frequencies" {
+            told = natural_frequencies(&line)?.len();
+            seconds.push(start.elapsed().as_secs_f64());
+            continue;
+        }
         let answer = ask(&line, &question, &Silent)?;
         seconds.push(start.elapsed().as_secs_f64());
         told = match answer {

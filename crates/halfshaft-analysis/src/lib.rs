@@ -61,6 +61,18 @@ pub fn response_count(
     first_harmonic::response_count(line, question, speeds, parameters)
 }
 
+/// Undamped natural frequencies of small vibrations about the stable equilibrium next to zero twist,
+/// ascending, rad/s, without the rigid-body motion: what `modes` tells, and nothing besides, for whoever
+/// asks often.
+///
+/// # Errors
+/// [`AnalysisError::NoEquilibrium`] where the torques are more than the line carries.
+pub fn natural_frequencies(line: &Driveline) -> Result<Vec<f64>, AnalysisError> {
+    let modal::vibration::Vibration { equations, state } =
+        modal::vibration::Vibration::of(line, None)?;
+    modal::elastic::natural_frequencies(&equations, &state.twists)
+}
+
 /// Answers a question about a line.
 ///
 /// An analysis that ends early returns what it reached, with the reason in the answer's

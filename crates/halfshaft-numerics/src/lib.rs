@@ -38,6 +38,7 @@
 
 pub mod blocks;
 pub mod bracket;
+pub mod chain;
 mod complex;
 pub mod dense;
 pub mod ensemble;

@@ -25,6 +25,7 @@ mod header;
 mod history;
 pub mod io;
 mod modes;
+mod named;
 mod number;
 mod report;
 mod resonance;
@@ -52,11 +53,9 @@ pub use history::{
     IntegratorUse, MethodRow, NodeMetrics, OrderMap, ShaftMetrics, ShockDetails,
 };
 pub use modes::{Gear, Mode, ModesInGear, ModesResult};
+pub use named::{Named, Names};
 pub use report::{LevelRow, MissingSection, ReportResult};
 pub use resonance::{Branch, Effort, JumpSpeeds, ModeScaling, ResonanceResult, VerifiedPoint};
 pub use special::{SpecialKind, SpecialPoint, Status};
 pub use study::{ComparisonRow, ItemStyle, StudyFigureSpec, StudyItem, StudyResult};
 pub use table::{Column, Table, column_names};
-
-/// An ordered map from names to values, written as a JSON object.
-pub type Named<T> = indexmap::IndexMap<String, T>;

@@ -200,9 +200,7 @@ fn branch(mode: &ModeEquation, maps: &ChannelMaps, piece: &[CurvePoint]) -> Bran
             PointKind::Regular | PointKind::Peak => return None,
         };
         let mut values = maps.values(mode, &point.response);
-        for stability in ["stable", "unstable_dimension"] {
-            values.shift_remove(stability);
-        }
+        values.retain(|name, _| !matches!(name, "stable" | "unstable_dimension"));
         Some(SpecialPoint::new(kind, Status::Located, values))
     };
     let special_points = piece.iter().filter_map(special).collect();

@@ -11,6 +11,7 @@ use halfshaft_results::{
 
 use super::{
     Overload, RestStates, Shared, after_ramps, capacity, carries, find, find_stable, free_play,
+    lowest_eigenvalue,
 };
 use crate::error::AnalysisError;
 use crate::header::header;
@@ -116,7 +117,9 @@ fn listed(
             break;
         }
         spent += work;
-        listed.push(rest_result(equations, state, spent <= EIGENVALUE_WORK)?);
+        let affordable = spent <= EIGENVALUE_WORK;
+        let lowest = affordable.then(|| lowest_eigenvalue(equations, state)).transpose()?;
+        listed.push(rest_result(equations, state, lowest));
     }
     Ok(listed)
 }

@@ -101,10 +101,14 @@ fn tree_torques(equations: &EquationsOfMotion, forces: &[f64]) -> Vec<f64> {
         }
     }
     let mut work: Vec<f64> = forces.iter().zip(&speeds).map(|(f, r)| f * r).collect();
+    // What is left of a sum after large terms cancel is no torque.
+    #[expect(clippy::cast_precision_loss, reason = "a size")]
+    let rounding = f64::EPSILON * work.len() as f64 * work.iter().map(|w| w.abs()).sum::<f64>();
     let mut torques = vec![0.0; tree.len()];
     for (index, edge) in tree.iter().enumerate().rev() {
         let (child, ratio) = edge.child;
-        let torque = work[child] / (speeds[child] * ratio);
+        let left = if work[child].abs() <= rounding { 0.0 } else { work[child] };
+        let torque = left / (speeds[child] * ratio);
         torques[index] = if edge.from_parent { -torque } else { torque };
         if let Some((parent, _)) = edge.parent {
             work[parent] += work[child];

@@ -1,5 +1,6 @@
 //! What is told of the vibration of a line.
 
+use halfshaft_model::End;
 use halfshaft_model::question::ForcedQuestion;
 use halfshaft_numerics::Complex;
 
@@ -24,10 +25,57 @@ pub(super) enum Quantity {
 pub(super) struct Channel {
     pub(super) name: String,
     pub(super) quantity: Quantity,
-    /// Connection or node.
-    index: usize,
+    source: Source,
     /// Whether each order is told as well.
     pub(super) orders: bool,
+}
+
+/// What a channel is taken from.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Spring(Spring),
+    Node { group: usize, ratio: f64 },
+}
+
+/// A connection in small vibration about the equilibrium.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spring {
+    from: End,
+    to: End,
+    stiffness: f64,
+    /// Loss factor times stiffness.
+    lost: f64,
+    damping: f64,
+}
+
+impl Spring {
+    /// The connection of that number.
+    pub(super) fn of(vibration: &Vibration, index: usize) -> Self {
+        let connection = &vibration.equations.connections[index];
+        let x = vibration.state.twists[index];
+        let stiffness = connection.law.stiffness(x);
+        Self {
+            from: connection.from,
+            to: connection.to,
+            stiffness,
+            lost: connection.loss_factor * stiffness,
+            damping: connection.damping_at(x),
+        }
+    }
+
+    /// Complex amplitude of its twist for the motion of the groups.
+    fn twist(&self, motion: &[Complex]) -> Complex {
+        let end =
+            |end: End| end.map_or(Complex::default(), |(group, ratio)| motion[group].scaled(ratio));
+        end(self.from) - end(self.to)
+    }
+
+    /// Mean power that its damping turns into heat at `omega` (rad/s), W.
+    pub(super) fn heat(&self, omega: f64, motion: &[Complex]) -> f64 {
+        let twist = self.twist(motion);
+        let square = twist.re * twist.re + twist.im * twist.im;
+        0.5 * (omega * omega * self.damping + omega * self.lost) * square
+    }
 }
 
 impl Channel {
@@ -56,15 +104,16 @@ pub(super) fn channels(
             continue;
         }
         let orders = asked.unwrap_or(short);
+        let source = Source::Spring(Spring::of(vibration, index));
         let name = format!("{}.torque", connection.name);
-        channels.push(Channel { name, quantity: Quantity::Torque, index, orders });
+        channels.push(Channel { name, quantity: Quantity::Torque, source, orders });
         if orders {
             let name = format!("{}.twist", connection.name);
-            channels.push(Channel { name, quantity: Quantity::Twist, index, orders: false });
+            channels.push(Channel { name, quantity: Quantity::Twist, source, orders: false });
         }
     }
     let heavy = equations.nodes.iter().filter(|node| node.inertia > 0.0).count();
-    for (index, node) in equations.nodes.iter().enumerate() {
+    for node in &equations.nodes {
         let told = match &question.nodes {
             Some(nodes) => nodes.contains(&node.name),
             None => heavy <= SHORT && node.inertia > 0.0,
@@ -77,7 +126,7 @@ pub(super) fn channels(
                 channels.push(Channel {
                     name: format!("{}.{word}", node.name),
                     quantity,
-                    index,
+                    source: Source::Node { group: node.group, ratio: node.ratio },
                     orders,
                 });
             }
@@ -87,39 +136,16 @@ pub(super) fn channels(
 }
 
 /// Complex amplitude of a channel for the motion of the groups at `omega` (rad/s).
-pub(super) fn amplitude(
-    vibration: &Vibration,
-    channel: &Channel,
-    omega: f64,
-    motion: &[Complex],
-) -> Complex {
-    let equations = &vibration.equations;
-    let twist = |index: usize| twist(vibration, index, motion);
-    match channel.quantity {
-        Quantity::Torque => {
-            let connection = &equations.connections[channel.index];
-            let x = vibration.state.twists[channel.index];
-            let stiffness = connection.law.stiffness(x);
-            let loss = connection.loss_factor * stiffness + omega * connection.damping_at(x);
-            Complex::new(stiffness, loss) * twist(channel.index)
+pub(super) fn amplitude(channel: &Channel, omega: f64, motion: &[Complex]) -> Complex {
+    match (channel.source, channel.quantity) {
+        (Source::Spring(spring), Quantity::Torque) => {
+            let complex = Complex::new(spring.stiffness, spring.lost + omega * spring.damping);
+            complex * spring.twist(motion)
         }
-        Quantity::Twist => twist(channel.index),
-        Quantity::Speed => {
-            let node = &equations.nodes[channel.index];
-            Complex::new(0.0, omega * node.ratio) * motion[node.group]
+        (Source::Spring(spring), _) => spring.twist(motion),
+        (Source::Node { group, ratio }, Quantity::Speed) => {
+            Complex::new(0.0, omega * ratio) * motion[group]
         }
-        Quantity::Acceleration => {
-            let node = &equations.nodes[channel.index];
-            motion[node.group].scaled(-omega * omega * node.ratio)
-        }
+        (Source::Node { group, ratio }, _) => motion[group].scaled(-omega * omega * ratio),
     }
-}
-
-/// Complex amplitude of the twist of a connection.
-pub(super) fn twist(vibration: &Vibration, index: usize, motion: &[Complex]) -> Complex {
-    let connection = &vibration.equations.connections[index];
-    let end = |end: halfshaft_model::End| {
-        end.map_or(Complex::default(), |(group, ratio)| motion[group].scaled(ratio))
-    };
-    end(connection.from) - end(connection.to)
 }

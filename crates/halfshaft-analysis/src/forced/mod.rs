@@ -10,6 +10,7 @@
 
 mod answer;
 mod channels;
+mod dampers;
 mod engines;
 mod modal_damping;
 mod speeds;

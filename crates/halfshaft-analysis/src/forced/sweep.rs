@@ -4,7 +4,8 @@ use halfshaft_numerics::Complex;
 use halfshaft_numerics::observer::Observer;
 use halfshaft_results::{Column, ForcedHeat, ForcedPeak, Gear, Table};
 
-use super::channels::{Channel, Quantity, amplitude, twist};
+use super::channels::{Channel, Quantity, amplitude};
+use super::dampers::{Damper, dampers};
 use super::synthesis::Synthesis;
 use super::system::LinearLine;
 use crate::error::AnalysisError;
@@ -34,12 +35,6 @@ struct Peak {
     order_value: f64,
 }
 
-/// What turns motion into heat.
-enum Damper {
-    Connection(usize),
-    Ground(usize),
-}
-
 impl<'v> Sweep<'v> {
     pub(super) fn new(
         vibration: &'v Vibration,
@@ -47,15 +42,7 @@ impl<'v> Sweep<'v> {
         channels: Vec<Channel>,
         shafts: Option<&[String]>,
     ) -> Self {
-        let equations = &vibration.equations;
-        let lossy = |(_, c): &(usize, &halfshaft_dynamics::Connection)| {
-            let told = shafts.is_none_or(|shafts| shafts.contains(&c.name));
-            told && (c.damping > 0.0 || c.loss_factor > 0.0)
-        };
-        let connections = equations.connections.iter().enumerate().filter(lossy);
-        let connections = connections.map(|(index, _)| Damper::Connection(index));
-        let damped = (0..equations.groups()).filter(|group| equations.ground_damping[*group] > 0.0);
-        let dampers: Vec<Damper> = connections.chain(damped.map(Damper::Ground)).collect();
+        let dampers = dampers(vibration, shafts);
         let in_orders = channels.iter().filter(|channel| channel.orders).count();
         Self {
             vibration,
@@ -98,35 +85,17 @@ impl<'v> Sweep<'v> {
                     motion.fill(Complex::new(f64::NAN, f64::NAN));
                 }
                 for (place, channel) in self.channels.iter().enumerate() {
-                    let value = amplitude(self.vibration, channel, omega, &motion);
+                    let value = amplitude(channel, omega, &motion);
                     (re[number][place], im[number][place]) = (value.re, value.im);
                 }
                 let dampers = self.dampers.iter().zip(&mut power);
-                dampers.for_each(|(damper, power)| *power += self.power(damper, omega, &motion));
+                dampers.for_each(|(damper, power)| *power += damper.heat(omega, &motion));
             }
             synthesis.half_ranges(&re, &im, &mut ranges);
             self.keep(*speed, (&re, &im), &ranges);
             self.heat.iter_mut().zip(power).for_each(|(heat, power)| heat.push(power));
         }
         Ok(true)
-    }
-
-    /// Mean power of one order in a damper, W.
-    fn power(&self, damper: &Damper, omega: f64, motion: &[Complex]) -> f64 {
-        let equations = &self.vibration.equations;
-        let (rate, size) = match *damper {
-            Damper::Connection(index) => {
-                let connection = &equations.connections[index];
-                let x = self.vibration.state.twists[index];
-                let lost = connection.loss_factor * connection.law.stiffness(x);
-                let rate = omega * omega * connection.damping_at(x) + omega * lost;
-                (rate, twist(self.vibration, index, motion).modulus())
-            }
-            Damper::Ground(group) => {
-                (omega * omega * equations.ground_damping[group], motion[group].modulus())
-            }
-        };
-        0.5 * rate * size * size
     }
 
     fn keep(&mut self, speed: f64, (re, im): (&[Vec<f64>], &[Vec<f64>]), ranges: &[f64]) {
@@ -156,8 +125,6 @@ impl<'v> Sweep<'v> {
     pub(super) fn into_result(self, gear: Gear) -> halfshaft_results::ForcedGear {
         let peaks = self.peaks();
         let heat = self.most_heat();
-        let names: Vec<String> =
-            self.dampers.iter().map(|damper| self.damper_name(damper)).collect();
         let mut columns = vec![Column::new("frequency", "rad/s", self.speeds)];
         let mut in_orders = self.parts.into_iter();
         for (channel, ranges) in self.channels.iter().zip(self.ranges) {
@@ -177,8 +144,8 @@ impl<'v> Sweep<'v> {
                 columns.push(Column::new(format!("{name}.phase"), "rad", phases));
             }
         }
-        for (name, power) in names.into_iter().zip(self.heat) {
-            columns.push(Column::new(format!("{name}.heat"), "W", power));
+        for (damper, power) in self.dampers.iter().zip(self.heat) {
+            columns.push(Column::new(format!("{}.heat", damper.name), "W", power));
         }
         halfshaft_results::ForcedGear { gear, table: Table::new(columns), peaks, heat }
     }
@@ -199,14 +166,6 @@ impl<'v> Sweep<'v> {
         .collect()
     }
 
-    fn damper_name(&self, damper: &Damper) -> String {
-        let equations = &self.vibration.equations;
-        match *damper {
-            Damper::Connection(index) => equations.connections[index].name.clone(),
-            Damper::Ground(group) => equations.nodes[equations.reference[group]].name.clone(),
-        }
-    }
-
     fn most_heat(&self) -> Vec<ForcedHeat> {
         let worst = |power: &Vec<f64>| {
             let pairs = power.iter().zip(&self.speeds).filter(|(power, _)| power.is_finite());
@@ -215,7 +174,7 @@ impl<'v> Sweep<'v> {
         let rows = self.dampers.iter().zip(&self.heat);
         rows.filter_map(|(damper, power)| {
             let (power, speed) = worst(power)?;
-            Some(ForcedHeat { name: self.damper_name(damper), power, speed })
+            Some(ForcedHeat { name: damper.name.clone(), power, speed })
         })
         .collect()
     }

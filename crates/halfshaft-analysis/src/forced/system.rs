@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use halfshaft_numerics::Complex;
-use halfshaft_numerics::blocks::SymmetricSystem;
+use halfshaft_numerics::blocks::{Pattern, SymmetricSystem};
 use halfshaft_numerics::pencil::{Pencil, PencilTerm, add_term};
 
 use super::modal_damping::ModalResponse;
@@ -23,9 +23,19 @@ struct DynamicTerm {
     loss_factor: f64,
 }
 
+/// The sums of the terms.
+struct Matrices {
+    stiffness: SymmetricSystem<f64>,
+    /// Loss factors times stiffnesses.
+    lost: SymmetricSystem<f64>,
+    damping: SymmetricSystem<f64>,
+    inertia: SymmetricSystem<f64>,
+}
+
 /// A line about its equilibrium, ready to be solved at any frequency.
 pub(super) struct LinearLine {
     terms: Vec<DynamicTerm>,
+    matrices: Matrices,
     system: SymmetricSystem<Complex>,
     work: Vec<Complex>,
     /// With damping of the modes, which no sparse matrix has.
@@ -44,8 +54,10 @@ impl LinearLine {
         let terms = terms.into_iter().zip(damping);
         let terms =
             terms.map(|(term, (damping, loss_factor))| DynamicTerm { term, damping, loss_factor });
+        let terms: Vec<DynamicTerm> = terms.collect();
         Ok(Self {
-            terms: terms.collect(),
+            matrices: Matrices::of(&terms, pencil.pattern()),
+            terms,
             system: SymmetricSystem::new(Arc::clone(pencil.pattern())),
             work: Vec::new(),
             modal,
@@ -59,10 +71,7 @@ impl LinearLine {
             modal.solve(omega, motion);
             return;
         }
-        self.system.clear();
-        for term in &self.terms {
-            add_term(&mut self.system, &term.term, term.value(omega));
-        }
+        self.system.set_sum(&self.matrices.parts(omega));
         let weak = self.system.factor_strengthened();
         let torques = if weak { motion.to_vec() } else { Vec::new() };
         self.system.solve(motion, &mut self.work);
@@ -89,6 +98,32 @@ impl LinearLine {
                 return;
             }
         }
+    }
+}
+
+impl Matrices {
+    fn of(terms: &[DynamicTerm], pattern: &Arc<Pattern>) -> Self {
+        let sum = |value: fn(&DynamicTerm) -> f64| {
+            let mut system = SymmetricSystem::new(Arc::clone(pattern));
+            terms.iter().for_each(|term| add_term(&mut system, &term.term, value(term)));
+            system
+        };
+        Self {
+            stiffness: sum(|term| term.term.stiffness),
+            lost: sum(|term| term.loss_factor * term.term.stiffness),
+            damping: sum(|term| term.damping),
+            inertia: sum(|term| term.term.inertia),
+        }
+    }
+
+    /// `K + i H + i ω C - ω² M`.
+    fn parts(&self, omega: f64) -> [(&SymmetricSystem<f64>, Complex); 4] {
+        [
+            (&self.stiffness, Complex::from(1.0)),
+            (&self.lost, Complex::new(0.0, 1.0)),
+            (&self.damping, Complex::new(0.0, omega)),
+            (&self.inertia, Complex::from(-omega * omega)),
+        ]
     }
 }
 

@@ -103,7 +103,9 @@ fn projected(
 
 fn is_diagonal(matrix: &Matrix) -> bool {
     let n = matrix.rows();
-    (0..n).all(|i| {
+    // Damping is not negative: where the diagonal is zero, so is the rest.
+    let damped = (0..n).filter(|i| matrix[(*i, *i)] != 0.0);
+    damped.into_iter().all(|i| {
         (0..n).filter(|j| *j != i).all(|j| {
             let size = (matrix[(i, i)] * matrix[(j, j)]).abs().sqrt();
             matrix[(i, j)].abs() <= UNCOUPLED * size.max(f64::MIN_POSITIVE)

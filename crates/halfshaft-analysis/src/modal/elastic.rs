@@ -9,7 +9,7 @@
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::dense::{Matrix, dot, symmetric_eigen};
 
-use super::sparse;
+use super::{chain, sparse};
 use crate::error::{AnalysisError, Doing};
 
 /// One undamped mode.
@@ -26,17 +26,38 @@ pub(crate) struct ElasticMode {
 /// Degrees of freedom up to which all modes are computed where nobody says how many.
 pub(crate) const ALL_UP_TO: usize = 400;
 
+/// Undamped natural frequencies about given twists, ascending, rad/s; 0 where an equilibrium is unstable.
+pub(crate) fn natural_frequencies(
+    equations: &EquationsOfMotion,
+    twists: &[f64],
+) -> Result<Vec<f64>, AnalysisError> {
+    if !is_special(equations)
+        && let Some(values) = chain::eigenvalues(equations, twists)
+    {
+        return Ok(values.iter().map(|value| value.sqrt()).collect());
+    }
+    let modes = lowest_modes(equations, twists, sparse::elastic_count(equations))?;
+    Ok(modes.iter().map(ElasticMode::frequency).collect())
+}
+
+/// Massless nodes, and bars with consistent inertia, are for the sparse solver alone.
+fn is_special(equations: &EquationsOfMotion) -> bool {
+    equations.massless().is_some()
+        || equations.connections.iter().any(|connection| connection.inertance != 0.0)
+}
+
 /// The lowest `count` elastic modes about given twists, ascending.
 pub(crate) fn lowest_modes(
     equations: &EquationsOfMotion,
     twists: &[f64],
     count: usize,
 ) -> Result<Vec<ElasticMode>, AnalysisError> {
-    let special = equations.massless().is_some()
-        || equations.connections.iter().any(|connection| connection.inertance != 0.0);
     // A dense problem is solved whole, a long line by as many vectors as are wanted.
-    if special || equations.groups() > ALL_UP_TO {
+    if is_special(equations) || equations.groups() > ALL_UP_TO {
         return sparse::lowest(equations, twists, count);
+    }
+    if let Some(modes) = chain::lowest(equations, twists, count) {
+        return Ok(modes);
     }
     let mut modes = ElasticSpace::new(equations).modes(equations, twists)?;
     modes.truncate(count);

@@ -6,11 +6,13 @@
 //! which only the lowest modes are computed ([`sparse`]).
 
 mod answer;
+mod chain;
 mod damped;
 pub(crate) mod elastic;
 mod label;
 mod refined;
 pub(crate) mod sparse;
+mod telling;
 pub(crate) mod vibration;
 
 pub(crate) use answer::{

@@ -347,7 +347,7 @@ fn physical_torque(
 ) {
     let own = [format!("{shaft}.twist"), format!("{shaft}.twist_rate"), format!("{shaft}.torque")];
     columns.retain(|column| column.name == "time" || own.contains(&column.name));
-    channels.retain(|name, _| own.contains(name));
+    channels.retain(|name, _| own.iter().any(|own| own == name));
     let mut peak = TurningPoint { time: 0.0, value: 0.0 };
     let times = columns[0].values.clone();
     if let Some(column) = columns.iter_mut().find(|column| column.name == own[2]) {

@@ -54,7 +54,7 @@ impl Scalar for Complex {
 #[derive(Clone, Debug)]
 pub struct SymmetricSystem<T> {
     pattern: Arc<Pattern>,
-    /// By position.
+    /// By position; once factored, the inverses of the pivots.
     diagonal: Vec<T>,
     pairs: Vec<T>,
     /// The largest entry of each row, kept for its memory.
@@ -104,20 +104,20 @@ impl<T: Scalar> SymmetricSystem<T> {
     /// The same with small pivots raised to a hundred-millionth of their rows; whether some were small
     /// enough to call for iterative refinement.
     pub fn factor_strengthened(&mut self) -> bool {
-        self.eliminate(RAISED) < WEAK
+        self.eliminate(RAISED)
     }
 
-    /// Eliminates with pivots of at least `least` of the largest entry of their rows; the smallest
-    /// pivot over that.
-    fn eliminate(&mut self, least: f64) -> f64 {
+    /// Eliminates with pivots of at least `least` of the largest entry of their rows; whether one of
+    /// them was weak.
+    fn eliminate(&mut self, least: f64) -> bool {
         let pattern = Arc::clone(&self.pattern);
         let mut rows = std::mem::take(&mut self.rows);
         self.largest_of_rows(&mut rows);
-        let mut smallest = f64::INFINITY;
+        let mut weak = false;
         for (at, &largest) in rows.iter().enumerate() {
-            let ratio = self.diagonal[at].size() / largest;
-            smallest = smallest.min(ratio);
-            if ratio < least || largest == 0.0 {
+            let size = self.diagonal[at].size();
+            weak |= size < WEAK * largest;
+            if size < least * largest || largest == 0.0 {
                 self.diagonal[at] = T::from((least * largest).max(f64::MIN_POSITIVE.sqrt()));
             }
             let inverse = T::from(1.0) / self.diagonal[at];
@@ -133,9 +133,10 @@ impl<T: Scalar> SymmetricSystem<T> {
             for index in 0..later.len() {
                 self.pairs[first + index] = self.pairs[first + index] * inverse;
             }
+            self.diagonal[at] = inverse;
         }
         self.rows = rows;
-        smallest
+        weak
     }
 
     /// The largest entry of each row before elimination.
@@ -164,12 +165,28 @@ impl<T: Scalar> SymmetricSystem<T> {
         }
         for at in (0..work.len()).rev() {
             let first = pattern.first(at);
-            let mut value = work[at] / self.diagonal[at];
+            let mut value = work[at] * self.diagonal[at];
             for (index, &row) in pattern.later(at).iter().enumerate() {
                 value = value - self.pairs[first + index] * work[row];
             }
             work[at] = value;
             x[pattern.node(at)] = value;
+        }
+    }
+}
+
+impl SymmetricSystem<Complex> {
+    /// Sets all entries to those of a sum of real matrices on the same pattern, each with its factor.
+    pub fn set_sum(&mut self, parts: &[(&SymmetricSystem<f64>, Complex)]) {
+        self.clear();
+        for (part, factor) in parts {
+            let add = |sums: &mut [Complex], entries: &[f64]| {
+                for (sum, entry) in sums.iter_mut().zip(entries) {
+                    *sum = *sum + factor.scaled(*entry);
+                }
+            };
+            add(&mut self.diagonal, &part.diagonal);
+            add(&mut self.pairs, &part.pairs);
         }
     }
 }
