@@ -8,6 +8,7 @@ from typing import Any, Literal, Union
 
 from . import _halfshaft
 from ._errors import HalfshaftError
+from ._law import Laws, warn_beyond
 from ._model import Driveline
 from ._result import Result
 from ._words import options as words
@@ -24,9 +25,12 @@ class Ensemble:
     of rows. Leaving it early (``close()``, or the end of a ``with``) ends the work.
     """
 
-    def __init__(self, core: _halfshaft.Ensemble, errors: Literal["raise", "return"]) -> None:
+    def __init__(
+        self, core: _halfshaft.Ensemble, errors: Literal["raise", "return"], laws: Laws
+    ) -> None:
         self._core = core
         self._errors = errors
+        self._laws = laws
 
     def __len__(self) -> int:
         return len(self._core)
@@ -36,11 +40,13 @@ class Ensemble:
 
     def __next__(self) -> Result | HalfshaftError:
         try:
-            return Result(next(self._core))
+            result = Result(next(self._core))
         except HalfshaftError as error:
             if self._errors == "raise":
                 raise
             return error
+        warn_beyond(result, self._laws)
+        return result
 
     def close(self) -> None:
         """Ends the work that is under way."""
@@ -82,7 +88,7 @@ def ensemble(
     core = _halfshaft.Ensemble(
         line._core(), question, words(options), columns, threads, window or 4 * threads
     )
-    return Ensemble(core, errors)
+    return Ensemble(core, errors, line._laws())
 
 
 def _columns(parameters: Any) -> list[tuple[str, Any]]:

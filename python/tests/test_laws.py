@@ -189,6 +189,8 @@ def test_going_beyond_the_range_is_warned_of(oscillator: Driveline) -> None:
         short.simulate(duration=1, initial={"spring.twist": 2})
     with pytest.warns(BeyondRange):
         short.resonance(frequency=(25.7, 26.2))
+    with pytest.warns(BeyondRange):
+        list(halfshaft.ensemble(short, {"excitation.amplitude": [9]}, frequency=(25.7, 26.2)))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         short.simulate(duration=1, initial={"spring.twist": 0.5}, frequency=10)

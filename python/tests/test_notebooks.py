@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 import runpy
 from pathlib import Path
 from typing import Any
 
+import numpy
 import pytest
+
+import halfshaft
 
 PYTHON = Path(__file__).resolve().parents[1]
 
@@ -33,6 +37,17 @@ def test_the_examples_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     many = runpy.run_path(str(PYTHON / "examples" / "many_curves.py"))
     many["main"](40)
     assert "lines jump" in capsys.readouterr().out
+
+
+def test_what_the_docs_show_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    halfshaft.example().save("my-line.toml")
+    page = (PYTHON.parent / "docs" / "python.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    assert len(blocks) >= 5
+    names: dict[str, Any] = {"numpy": numpy}
+    for block in blocks:
+        exec(block.replace("10_000", "8"), names)
 
 
 def test_the_reference_page_is_up_to_date() -> None:

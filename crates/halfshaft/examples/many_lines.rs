@@ -8,6 +8,8 @@
 //! The yardstick for the ensembles of the Python package (`bench/ensemble.py`): the same rows, the same
 //! question, the same number of threads, and nothing in between.
 
+#![allow(clippy::print_stdout, reason = "it is read by a script")]
+
 use std::error::Error;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
