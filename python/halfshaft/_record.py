@@ -11,13 +11,18 @@ Columns = list[tuple[str, str, Any]]
 
 
 class Record(dict[str, Any]):
-    """A dict whose keys are attributes too, where they are names."""
+    """A dict whose keys are attributes too, where they are names.
+
+    One with a table under ``columns`` answers for it: ``branch.to_pandas()``.
+    """
 
     def __getattr__(self, name: str) -> Any:
-        try:
+        if name in self:
             return self[name]
-        except KeyError:
-            raise AttributeError(f"no {name!r} here; there are {', '.join(self)}") from None
+        table = None if name.startswith("_") else self.get("columns")
+        if isinstance(table, Table) and hasattr(table, name):
+            return getattr(table, name)
+        raise AttributeError(f"no {name!r} here; there are {', '.join(self)}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *(name for name in self if name.isidentifier())]

@@ -19,6 +19,8 @@ def test_everything_is_there_by_name(resonance: Result) -> None:
     assert resonance.analysis == "resonance" and resonance.finished
     assert resonance.model.name == resonance["model"]["name"] == "Scaled oscillator"
     assert resonance.branches[0].columns == resonance.table
+    branch = copy.deepcopy(resonance.branches[0])
+    assert list(branch.to_dict()) == branch.names == list(branch.columns)
     assert "peaks" in resonance and "peaks" in dir(resonance)
     with pytest.raises(AttributeError, match="it has"):
         _ = resonance.nothing
