@@ -5,7 +5,8 @@
 
 Needs the package (``pip install .``) and cargo, which builds the example ``many_lines``. Both take the same
 rows on the same number of threads in turns; the best of the repeats of each side counts, since whatever else
-the machine does only makes them slower. Memory is the peak of the process, taken over that of one with a
+the machine does only makes them slower. Beside the rate stands the processor time of a curve, start of the
+process included, which hangs less on who else is at work. Memory is the peak of the process, taken over that of one with a
 hundredth of the rows.
 """
 
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -39,8 +41,12 @@ print(seconds, samples, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / uni
 
 
 def measured(command: list[str]) -> list[float]:
+    """Processor seconds of a process, and the numbers that it prints."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT / "bench")
-    return [float(word) for word in done.stdout.split()]
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return [used, *(float(word) for word in done.stdout.split())]
 
 
 def example() -> str:
@@ -61,21 +67,25 @@ def main() -> None:
     parser.add_argument("--methods", default="averaged,first-harmonic,harmonic-balance")
     given = parser.parse_args()
     rust = example()
-    print("| method | curves a second: Rust | Python | share | peak memory, MB | with 1/100 of the rows |")
-    print("|---|---|---|---|---|---|")
+    print("| method | curves a second: Rust, Python | share | processor time of a curve: Rust, Python "
+          "| share | peak memory, MB | with 1/100 of the rows |")
+    print("|---|---|---|---|---|---|---|")
     for method in given.methods.split(","):
         rows, few = ([str(count), str(given.threads), method] for count in (given.rows, given.rows // 100))
         ours, theirs = [], []
         for _ in range(given.repeats):
             theirs.append(measured([rust, str(MODEL), *rows]))
             ours.append(measured([sys.executable, "-c", WORK, str(MODEL), *rows]))
-        if {run[1] for run in ours} != {run[1] for run in theirs}:
+        if {run[2] for run in ours} != {run[2] for run in theirs}:
             raise SystemExit(f"{method}: the two sides have different samples: {ours} {theirs}")
         small = measured([sys.executable, "-c", WORK, str(MODEL), *few])
-        rates = [given.rows / min(run[0] for run in runs) for runs in (theirs, ours)]
-        peak = max(run[2] for run in ours)
-        print(f"| {method} | {rates[0]:.0f} | {rates[1]:.0f} | {100 * rates[1] / rates[0]:.0f} % "
-              f"| {peak:.0f} | {small[2]:.0f} |", flush=True)
+        used, took = ([min(run[at] for run in runs) for runs in (theirs, ours)] for at in (0, 1))
+        cost = [1e3 * seconds / given.rows for seconds in used]
+        rates = [given.rows / seconds for seconds in took]
+        peak = max(run[3] for run in ours)
+        print(f"| {method} | {rates[0]:.0f}, {rates[1]:.0f} | {100 * rates[1] / rates[0]:.0f} % "
+              f"| {cost[0]:.2f}, {cost[1]:.2f} ms | {100 * cost[0] / cost[1]:.0f} % "
+              f"| {peak:.0f} | {small[3]:.0f} |", flush=True)
 
 
 if __name__ == "__main__":
