@@ -27,13 +27,14 @@ const FOR_TESTS: &[&str] = &[
     "numpy>=1.24",
     "hypothesis>=6.100",
     "matplotlib>=3.8",
-    "mypy>=1.13",
+    // What type checkers complain of changes with them: these two are as they were tried.
+    "mypy==2.4.1",
     "pandas>=2",
     "pint>=0.23",
     "plotly>=6",
     "pyarrow>=14",
     // With the JavaScript engine that it needs, as a wheel too.
-    "pyright[nodejs]>=1.1.400",
+    "pyright[nodejs]==1.1.414",
     "pytest>=8",
     "tqdm>=4.60",
     "xarray>=2023.12",
