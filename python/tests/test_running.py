@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import pickle
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -122,3 +123,10 @@ def test_nothing_is_warned_of_where_all_is_well(oscillator: Driveline) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         oscillator.check(), oscillator.static(), oscillator.modes()
+
+
+def test_importing_it_waits_for_no_other_package() -> None:
+    others = ["matplotlib", "numpy", "pandas", "pint", "plotly", "pyarrow", "tqdm", "xarray"]
+    told = f"import sys, halfshaft; print(*sorted(set({others}) & set(sys.modules)))"
+    ran = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True)
+    assert ran.stdout.split() == []

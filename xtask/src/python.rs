@@ -17,9 +17,6 @@ const PYTHONS: &[&str] =
 const FITS: &str = "import sys, ensurepip, venv; sys.exit(sys.version_info < (3, 10))";
 /// Largest wheel, bytes.
 const LARGEST_WHEEL: u64 = 15_000_000;
-/// Longest time that Python may take with `import halfshaft`, beyond that with nothing, s.
-const LONGEST_IMPORT: f64 = 0.15;
-
 /// What builds the wheel.
 const BUILDER: &[&str] = &["maturin>=1.16,<2"];
 /// What the tests use besides the package and numpy, its only hard dependency.
@@ -77,7 +74,8 @@ fn types(folder: &Path, tests: &Path) -> Outcome {
     Err(format!("types of the package are not complete:\n{told}"))
 }
 
-/// The wheel with numpy and nothing else: it is small, imports fast, answers, and its program runs.
+/// The wheel with numpy and nothing else: it is small, answers, and its program runs; how long the import
+/// takes is told.
 fn imports_alone(folder: &Path, wheel: &Path) -> Outcome {
     let size = fs::metadata(wheel).map_err(|error| format!("{}: {error}", wheel.display()))?.len();
     if size > LARGEST_WHEEL {
@@ -90,9 +88,6 @@ fn imports_alone(folder: &Path, wheel: &Path) -> Outcome {
     let program = ["-m", "halfshaft", "static", "--quiet"];
     finish(&mut python(&clean, folder, &program), "python -m halfshaft")?;
     let import = best(&clean, folder, "import halfshaft")? - best(&clean, folder, "pass")?;
-    if import > LONGEST_IMPORT {
-        return Err(format!("import halfshaft takes {import:.3} s, more than {LONGEST_IMPORT} s"));
-    }
     println!("wheel: {:.1} MB, imported in {:.0} ms", size as f64 / 1e6, 1e3 * import);
     Ok(())
 }

@@ -126,7 +126,8 @@ fn function(shaft: &Shaft) -> Option<NonlinearTerm> {
     let count = (law.pieces().len() - 2) as f64;
     let effect =
         format!("sampled from {first:.5} to {last:.5} rad, straight with the slope there beyond");
-    Some(term("function", count, "polynomials", effect))
+    let unit = if count == 1.0 { "polynomial" } else { "polynomials" };
+    Some(term("function", count, unit, effect))
 }
 
 fn others(shaft: &Shaft) -> impl Iterator<Item = NonlinearTerm> {
