@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use halfshaft_numerics::Error;
 use halfshaft_numerics::ensemble::{
-    Band, Expansion, Finished, Instructions, Lanes, Pair, Passage, Plan, RECIPROCALS, SeriesSystem,
-    Settings, Task, Trajectory, by_runge_kutta, by_series,
+    Band, Expansion, Finished, Instructions, Lanes, Pair, Parameters, Passage, Plan, RECIPROCALS,
+    SeriesSystem, Settings, Task, Trajectory, by_runge_kutta, by_series,
 };
 use halfshaft_numerics::observer::{Observer, Silent};
 use halfshaft_numerics::ode::Stop;
@@ -215,11 +215,12 @@ impl SeriesSystem for TwoStiffnesses {
         &self.bands
     }
 
-    fn pass(&self, _: usize, up: bool, parameters: &mut [f64]) {
+    fn pass(&self, _: usize, up: bool, parameters: &mut dyn Parameters) {
         let (now, levels) =
             if up { (4, [0.0, f64::INFINITY]) } else { (3, [f64::NEG_INFINITY, 0.0]) };
-        parameters[0] = parameters[now];
-        parameters[1..3].copy_from_slice(&levels);
+        parameters.set(0, parameters.get(now));
+        parameters.set(1, levels[0]);
+        parameters.set(2, levels[1]);
     }
 }
 

@@ -7,7 +7,8 @@
 //! (A. Griewank, A. Walther, *Evaluating Derivatives* (2008), chapter 13.)
 
 use halfshaft_numerics::ensemble::{
-    Band, Expansion, Lanes, RECIPROCALS, SeriesSystem, cosine_and_sine, product, square, tanh,
+    Band, Expansion, Lanes, Parameters, RECIPROCALS, SeriesSystem, cosine_and_sine, product,
+    square, tanh,
 };
 
 use super::build::{LaneLine, Row, Shaft};
@@ -68,9 +69,9 @@ impl SeriesSystem for LaneLine {
         &self.bands
     }
 
-    fn pass(&self, band: usize, up: bool, parameters: &mut [f64]) {
+    fn pass(&self, band: usize, up: bool, parameters: &mut dyn Parameters) {
         let shaft = &self.shafts[self.watched[band]];
-        let piece = parameters[shaft.piece] as usize;
+        let piece = parameters.get(shaft.piece) as usize;
         let next = if up { piece + 1 } else { piece.saturating_sub(1) };
         go_to(shaft, next.min(shaft.pieces - 1), parameters);
     }

@@ -1,7 +1,7 @@
 //! The values of a trajectory's parameters.
 
 use halfshaft_model::elements::PulseShape;
-use halfshaft_numerics::ensemble::Trajectory;
+use halfshaft_numerics::ensemble::{Parameters, Trajectory};
 
 use super::LaneError;
 use super::build::{LaneLine, PIECE_HEAD, Shaft, Tone};
@@ -102,7 +102,7 @@ impl LaneLine {
                 values[torque] = friction.torque_nm;
                 values[speed] = 1.0 / friction.speed_rad_s;
             }
-            go_to(shaft, 0, &mut values);
+            go_to(shaft, 0, &mut values.as_mut_slice());
         }
         for row in 0..self.rows.len() {
             for (index, place) in &self.rows[row].torques {
@@ -130,7 +130,7 @@ impl LaneLine {
             if let Some(at) = piece.filter(|at| to(*at) == x && v > 0.0) {
                 piece = Some(at + 1);
             }
-            go_to(shaft, piece.unwrap_or(shaft.pieces - 1), values);
+            go_to(shaft, piece.unwrap_or(shaft.pieces - 1), &mut &mut *values);
         }
     }
 
@@ -216,17 +216,18 @@ fn write_pieces(equations: &EquationsOfMotion, index: usize, shaft: &Shaft, valu
 }
 
 /// Puts a connection on a piece.
-pub(super) fn go_to(shaft: &Shaft, piece: usize, values: &mut [f64]) {
+pub(super) fn go_to(shaft: &Shaft, piece: usize, values: &mut dyn Parameters) {
     let at = shaft.table + piece * shaft.stride();
-    let (to, origin) = (values[at], values[at + 1]);
-    let from = if piece == 0 { f64::NEG_INFINITY } else { values[at - shaft.stride()] };
-    values[shaft.piece] = piece as f64;
-    values[shaft.ends[0]] = from - origin;
-    values[shaft.ends[1]] = to - origin;
-    values[shaft.origin] = origin;
-    values[shaft.damping] = values[at + 2];
-    let law = at + PIECE_HEAD;
-    values.copy_within(law..=law + shaft.degree, shaft.law);
+    let (to, origin) = (values.get(at), values.get(at + 1));
+    let from = if piece == 0 { f64::NEG_INFINITY } else { values.get(at - shaft.stride()) };
+    values.set(shaft.piece, piece as f64);
+    values.set(shaft.ends[0], from - origin);
+    values.set(shaft.ends[1], to - origin);
+    values.set(shaft.origin, origin);
+    values.set(shaft.damping, values.get(at + 2));
+    for power in 0..=shaft.degree {
+        values.set(shaft.law + power, values.get(at + PIECE_HEAD + power));
+    }
 }
 
 /// Constant and slope over time of what a source gives beside its tones.

@@ -58,7 +58,12 @@ pub(super) fn exit(
     best: Option<Exit>,
 ) -> Option<Exit> {
     let mut best = best;
-    for (up, level, sign) in [(false, levels[0], 1.0), (true, levels[1], -1.0)] {
+    let mut ends = [(false, levels[0], 1.0), (true, levels[1], -1.0)];
+    // The end that lies ahead is mostly the one: the other then need not be looked at any further.
+    if x.get(1).is_some_and(|rate| *rate > 0.0) {
+        ends.reverse();
+    }
+    for (up, level, sign) in ends {
         if !level.is_finite() {
             continue;
         }

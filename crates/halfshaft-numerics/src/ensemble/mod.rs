@@ -42,7 +42,7 @@ pub use pairs::Pair;
 pub use series::{LARGEST_DEGREE, RECIPROCALS, cosine_and_sine, product, square, value_and_slope};
 pub use sets::{Axis, Varied};
 pub use settings::Settings;
-pub use system::{Expansion, LaneSystem, SeriesSystem};
+pub use system::{Expansion, LaneSystem, Parameters, SeriesSystem};
 pub use task::{Finished, Plan, Start, Starts, Task, Trajectory};
 
 use crate::error::{Error, has_length};

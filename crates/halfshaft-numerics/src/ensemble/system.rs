@@ -28,7 +28,26 @@ pub trait SeriesSystem: Sync {
 
     /// A trajectory has left a band by its upper or lower end: changes its parameters, those of the
     /// band's ends included.
-    fn pass(&self, _band: usize, _up: bool, _parameters: &mut [f64]) {}
+    fn pass(&self, _band: usize, _up: bool, _parameters: &mut dyn Parameters) {}
+}
+
+/// The parameters of one trajectory, wherever they stand.
+pub trait Parameters {
+    /// The parameter of that number.
+    fn get(&self, number: usize) -> f64;
+
+    /// Gives it another value.
+    fn set(&mut self, number: usize, value: f64);
+}
+
+impl Parameters for &mut [f64] {
+    fn get(&self, number: usize) -> f64 {
+        self[number]
+    }
+
+    fn set(&mut self, number: usize, value: f64) {
+        self[number] = value;
+    }
 }
 
 /// The series about one time of all trajectories of a batch.

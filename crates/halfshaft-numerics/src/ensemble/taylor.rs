@@ -8,7 +8,8 @@ use super::bands::{Entered, Exit, Passage, exit, may_leave};
 use super::functions::{rough_exp2, rough_log2};
 use super::series::value_and_slope;
 use super::stepper::{Pass, Stepper, put, take};
-use super::{Expansion, LARGEST_DEGREE, Lanes, RECIPROCALS, SeriesSystem, Settings};
+use super::{Expansion, LARGEST_DEGREE, Lanes, Parameters, RECIPROCALS, SeriesSystem, Settings};
+use crate::polynomial;
 
 /// A step that would leave less than this share of itself to the goal is stretched to reach it.
 const STRETCH: f64 = 1.001;
@@ -130,7 +131,8 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
         }
     }
 
-    /// Shortens the steps of lanes that leave a band.
+    /// Shortens the steps of lanes that leave a band, one lane after the other: here no instruction
+    /// is wide.
     #[cold]
     #[inline(never)]
     fn exits(&mut self, length: &mut L, end: &mut L) {
@@ -138,10 +140,7 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
         for lane in 0..L::COUNT {
             let mut first: Option<Exit> = None;
             for (index, band) in self.system.bands().iter().enumerate() {
-                let series = self.watched(band.series);
-                for (value, term) in x.iter_mut().zip(series) {
-                    *value = term.get(lane);
-                }
+                take(lane, self.watched(band.series), &mut x);
                 let level = |at: usize| self.parameters[at].get(lane);
                 let levels = [level(band.lower), level(band.upper)];
                 let (x, step) = (&x[..self.terms], length.get(lane));
@@ -151,8 +150,8 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
             let Some(first) = first else { continue };
             length.set(lane, first.after);
             end.set(lane, self.time.get(lane) + first.after);
-            let series = self.watched(self.system.bands()[first.band].series);
-            let rate = value_and_slope(series, *length).1.get(lane);
+            take(lane, self.watched(self.system.bands()[first.band].series), &mut x);
+            let rate = polynomial::value_and_slope(&x[..self.terms], first.after).1;
             let passage = Passage { band: first.band, up: first.up, time: end.get(lane), rate };
             self.passes.push(Pass { lane, passage });
         }
@@ -178,14 +177,27 @@ impl<'s, Y: SeriesSystem, L: Lanes> Taylor<'s, Y, L> {
 
     /// Sends the lanes that have left a band on their way in the next.
     fn pass(&mut self) {
-        let mut parameters = vec![0.0; self.parameters.len()];
-        for index in 0..self.passes.len() {
-            let Pass { lane, passage } = self.passes[index];
-            take(lane, &self.parameters, &mut parameters);
+        for Pass { lane, passage } in &self.passes {
+            let mut parameters = OfLane { lane: *lane, all: &mut self.parameters };
             self.system.pass(passage.band, passage.up, &mut parameters);
-            put(lane, &parameters, &mut self.parameters);
-            self.entered[lane] = Some((passage.band, !passage.up));
+            self.entered[*lane] = Some((passage.band, !passage.up));
         }
+    }
+}
+
+/// The parameters of a lane.
+struct OfLane<'p, L> {
+    lane: usize,
+    all: &'p mut [L],
+}
+
+impl<L: Lanes> Parameters for OfLane<'_, L> {
+    fn get(&self, number: usize) -> f64 {
+        self.all[number].get(self.lane)
+    }
+
+    fn set(&mut self, number: usize, value: f64) {
+        self.all[number].set(self.lane, value);
     }
 }
 

@@ -17,6 +17,7 @@ mod sampled;
 mod scaling;
 
 pub use first_exit::first_exit;
+pub(crate) use first_exit::value_and_slope;
 pub use sampled::{SampleError, Sampled, sampled};
 
 use crate::small_list::SmallList;
