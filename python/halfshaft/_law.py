@@ -133,8 +133,8 @@ def warn_beyond(result: Result, laws: Laws) -> None:
         low, high = law.range
         reached = [_swept(table, f"{shaft}.twist") for table in result.tables.values()]
         ends = [ends for ends in reached if ends is not None]
-        if ends and (min(e[0] for e in ends) < low or max(e[1] for e in ends) > high):
-            least, greatest = min(e[0] for e in ends), max(e[1] for e in ends)
+        least, greatest = min((e[0] for e in ends), default=low), max((e[1] for e in ends), default=high)
+        if least < low or greatest > high:
             told = (
                 f"{shaft} twists from {least:.4g} to {greatest:.4g} rad; {law.name} was asked for "
                 f"{low:.4g} to {high:.4g} rad and goes on straight beyond (see range=)"

@@ -1,10 +1,9 @@
 //! Times of `modes` and `forced` of a free chain within the process, for `bench/peers/torsional`.
 //!
-//! `torsional_times modes|frequencies|forced COUNT REPEATS`: a chain of COUNT inertias of 0.5 kg·m² with shafts of
-//! 2e5 N·m/rad; without damping for `modes` and for their
-//! frequencies alone, with 10 N·m·s/rad beside each shaft and four orders on the
-//! first inertia at 1000 speeds for `forced`. One line of JSON: seconds of each repeat, and how many
-//! modes or speeds were told.
+//! `torsional_times modes|frequencies|forced COUNT REPEATS`: a chain of COUNT inertias of 0.5 kg·m² with
+//! shafts of 2e5 N·m/rad; without damping for `modes` and for their frequencies alone, with 10 N·m·s/rad
+//! beside each shaft and four orders on the first inertia at 1000 speeds for `forced`. One line of JSON:
+//! seconds of each repeat, and how many modes or speeds were told.
 
 use std::error::Error;
 use std::fmt::Write as _;

@@ -269,3 +269,32 @@ fn a_list_cut_short_is_not_called_complete() {
     assert!(result.equilibria.is_empty() && !result.complete);
     assert!(!result.header.termination.is_complete());
 }
+
+// Source: by hand: 0.1 + 0.2 - 0.3 is nothing, though not in floating point, so that nothing is asked of the
+// shaft to the body that no torque acts on.
+#[test]
+fn what_cancels_asks_nothing_of_a_shaft() {
+    let line = line_of(
+        r#"
+        format = 1
+        name = "cancelling"
+        inertia = [
+            { name = "a", inertia = 1 },
+            { name = "b", inertia = 2 },
+            { name = "c", inertia = 3 },
+        ]
+        shaft = [
+            { name = "idle", from = "a", to = "b", stiffness = 100 },
+            { name = "loaded", from = "b", to = "c", stiffness = 100 },
+        ]
+        torque = [
+            { name = "one", on = "b", mean = 0.1 },
+            { name = "two", on = "b", mean = 0.2 },
+            { name = "against", on = "c", mean = -0.3 },
+        ]"#,
+        &[],
+    );
+    let state = &statics(&line).equilibria[0];
+    assert_eq!((state.twist["idle"], state.torque["idle"]), (0.0, 0.0));
+    assert_close(state.torque["loaded"], 0.3, 1e-14);
+}

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{line_of, question, some, try_ask};
-use halfshaft_analysis::ask;
+use halfshaft_analysis::{ask, natural_frequencies};
 use halfshaft_model::Driveline;
 use halfshaft_model::question::{QuestionText, Verb};
 use halfshaft_numerics::Complex;
@@ -693,5 +693,47 @@ fn a_vibration_that_is_stopped_says_so() {
     assert!(few.rows() > 0 && few.rows() < all.rows());
     for (few, all) in few.columns.iter().zip(&all.columns) {
         assert_eq!(few.values, all.values[..few.values.len()]);
+    }
+}
+
+// Source: `modes`, which takes the dense solver for the branch and Lanczos' iteration for the long row; for
+// the row of four it is the same solver, held against published values above.
+#[test]
+fn natural_frequencies_alone_are_those_of_the_modes() {
+    let held =
+        "[[shaft]]\nname = \"held\"\nfrom = \"J1\"\nto = \"ground\"\nstiffness = 3e3\n".to_owned();
+    let branch = "[[inertia]]\nname = \"B\"\ninertia = 2\n".to_owned()
+        + "[[shaft]]\nname = \"branch\"\nfrom = \"J2\"\nto = \"B\"\nstiffness = 900\n";
+    let (inertias, stiffnesses) = ([0.5, 1.0, 4.0, 0.3], [2e3, 5e3, 1e4]);
+    for line in [
+        chain(&inertias, &stiffnesses, &held),
+        chain(&inertias, &stiffnesses, &branch),
+        chain(&[1.0; 450], &[1e4; 449], ""),
+    ] {
+        let count = Some(line.inertias().len().to_string());
+        let told = modes(&line, &QuestionText { count, ..QuestionText::default() }).modes;
+        let told: Vec<f64> = told.iter().map(|mode| mode.frequency).filter(|f| *f > 0.0).collect();
+        agree(&natural_frequencies(&line).expect("is at rest"), &told);
+    }
+}
+
+// Source: damping in proportion to stiffness, C = β K, gives every mode the ratio β ω / 2, however rounding
+// couples the modes of a long row.
+#[test]
+fn proportional_damping_couples_no_modes() {
+    let (count, beta) = (120, 5e-5);
+    let mut others = String::new();
+    for index in 1..count {
+        others += &format!(
+            "[[shaft]]\nname = \"d{index}\"\nfrom = \"J{}\"\nto = \"J{index}\"\nstiffness = 0\n\
+             damping = {}\n",
+            index - 1,
+            beta * 2e5
+        );
+    }
+    let line = chain(&vec![0.5; count], &vec![2e5; count - 1], &others);
+    for mode in modes(&line, &QuestionText::default()).modes.iter().skip(1) {
+        let ratio = beta * mode.frequency / 2.0;
+        assert!((mode.damping_ratio / ratio - 1.0).abs() < 1e-9, "{} {ratio}", mode.damping_ratio);
     }
 }

@@ -48,10 +48,7 @@ pub(crate) fn solve(
             gear: gear.clone(),
             frequency: modes.iter().map(ElasticMode::frequency).collect(),
             damping_ratio: pairs.iter().map(|pair| damping_ratio(*pair)).collect(),
-            label: modes
-                .iter()
-                .map(|mode| words(&vibration.equations, &vibration.state, mode))
-                .collect(),
+            label: words(&vibration.equations, &vibration.state, modes),
             critical: critical::speeds(vibration, modes, pairs, &orders, frequency, operating),
         })
         .collect();

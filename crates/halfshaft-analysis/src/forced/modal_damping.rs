@@ -108,11 +108,7 @@ fn projected(
             continue;
         }
         let parts: Vec<f64> = shapes.iter().map(|shape| term.along(shape)).collect();
-        for (row, first) in parts.iter().enumerate() {
-            for (column, second) in parts.iter().enumerate() {
-                matrix[(row, column)] += factor * first * second;
-            }
-        }
+        matrix.add_square(factor, &parts);
     }
     matrix
 }

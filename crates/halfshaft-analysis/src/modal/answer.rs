@@ -131,7 +131,7 @@ pub(crate) fn mode_label(
     let modes = lowest_modes(equations, &state.twists, mode)?;
     let found = modes.len();
     let shape = modes.get(mode - 1).ok_or(AnalysisError::NoSuchMode { asked: mode, found })?;
-    Ok(words(equations, state, shape))
+    Ok(Telling::of(equations, state).in_words(shape))
 }
 
 /// An equilibrium as a result; with its lowest eigenvalue where that is known.
@@ -153,12 +153,12 @@ pub(crate) fn by_connection(equations: &EquationsOfMotion, values: &[f64]) -> Na
     names.zip(values.iter().copied()).collect()
 }
 
-/// A mode in words, from the shares of its energies.
+/// Modes in words, from the shares of their energies.
 pub(crate) fn words(
     equations: &EquationsOfMotion,
     state: &RestState,
-    mode: &ElasticMode,
-) -> String {
+    modes: &[ElasticMode],
+) -> Vec<String> {
     let told = Telling::of(equations, state);
-    told.words(&told.strain_shares(mode), &told.kinetic_shares(&mode.shape))
+    modes.iter().map(|mode| told.in_words(mode)).collect()
 }

@@ -5,8 +5,10 @@
 
 use halfshaft_dynamics::EquationsOfMotion;
 use halfshaft_numerics::chain::Chain;
+use halfshaft_numerics::pencil::{EigenPair, PencilTerm};
 
 use super::elastic::ElasticMode;
+use super::sparse::terms;
 
 /// Springs and bodies of a line.
 struct Row<'l> {
@@ -17,13 +19,6 @@ struct Row<'l> {
     ratios: Vec<f64>,
     /// Stiffness between neighbours, in the turning of the row.
     links: Vec<f64>,
-}
-
-/// A spring between two groups, each with its factor in the twist.
-#[derive(Clone, Copy)]
-struct Link {
-    ends: [(usize, f64); 2],
-    stiffness: f64,
 }
 
 /// The lowest elastic modes about given twists; `None` where the line is no row of bodies and springs, or
@@ -47,37 +42,26 @@ pub(super) fn eigenvalues(equations: &EquationsOfMotion, twists: &[f64]) -> Opti
     Some(values)
 }
 
-/// Springs between groups, and to ground by group.
-fn springs(equations: &EquationsOfMotion, twists: &[f64]) -> (Vec<Link>, Vec<f64>) {
-    let (mut links, mut ground) = (Vec::new(), vec![0.0; equations.groups()]);
-    for (connection, twist) in equations.connections.iter().zip(twists) {
-        let stiffness = connection.law.stiffness(*twist);
-        match (connection.from, connection.to) {
-            _ if stiffness == 0.0 => {}
-            (Some(from), Some(to)) => links.push(Link { ends: [from, to], stiffness }),
-            (Some((group, ratio)), None) | (None, Some((group, ratio))) => {
-                ground[group] += stiffness * ratio * ratio;
-            }
-            (None, None) => {}
-        }
-    }
-    (links, ground)
-}
-
 impl<'l> Row<'l> {
     fn of(equations: &'l EquationsOfMotion, twists: &[f64]) -> Option<(Self, Chain)> {
-        let (links, ground) = springs(equations, twists);
+        let springs = terms(equations, twists).into_iter().filter(|term| term.stiffness != 0.0);
+        let (links, held): (Vec<_>, Vec<_>) = springs.partition(|term| term.second.is_some());
+        let mut ground = vec![0.0; equations.groups()];
+        for PencilTerm { first: (group, ratio), stiffness, .. } in held {
+            ground[group] += stiffness * ratio * ratio;
+        }
         let row = Self::along(equations, &links)?;
         let chain = row.chain(&ground)?;
         Some((row, chain))
     }
 
     /// Walks from one end to the other.
-    fn along(equations: &'l EquationsOfMotion, springs: &[Link]) -> Option<Self> {
+    fn along(equations: &'l EquationsOfMotion, springs: &[PencilTerm]) -> Option<Self> {
         let groups = equations.groups();
         let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); groups];
-        for (index, link) in springs.iter().enumerate() {
-            link.ends.iter().for_each(|(group, _)| of_group[*group].push(index));
+        for (index, spring) in springs.iter().enumerate() {
+            let ends = [Some(spring.first), spring.second];
+            ends.into_iter().flatten().for_each(|(group, _)| of_group[group].push(index));
         }
         if springs.len() + 1 != groups || of_group.iter().any(|links| links.len() > 2) {
             return None;
@@ -87,11 +71,12 @@ impl<'l> Row<'l> {
         let mut last = None;
         let (mut group, mut ratio) = (start, 1.0);
         while let Some(next) = of_group[group].iter().copied().find(|link| Some(*link) != last) {
-            let Link { ends: [first, second], stiffness } = springs[next];
+            let PencilTerm { first, second, stiffness, .. } = springs[next];
+            let second = second?;
             let ((_, here), (there, across)) =
                 if first.0 == group { (first, second) } else { (second, first) };
             links.push(stiffness * (here * ratio).powi(2));
-            (last, group, ratio) = (Some(next), there, ratio * here / across);
+            (last, group, ratio) = (Some(next), there, -ratio * here / across);
             order.push(group);
             ratios.push(ratio);
             if order.len() > groups {
@@ -109,7 +94,7 @@ impl<'l> Row<'l> {
         Chain::new(placed(&self.equations.inertia), &self.links, &placed(ground))
     }
 
-    fn mode(&self, pair: &halfshaft_numerics::pencil::EigenPair) -> ElasticMode {
+    fn mode(&self, pair: &EigenPair) -> ElasticMode {
         let mut shape = vec![0.0; self.order.len()];
         for ((group, ratio), x) in self.order.iter().zip(&self.ratios).zip(&pair.vector) {
             shape[*group] = ratio * x;

@@ -85,26 +85,16 @@ fn projected(
         if damping != 0.0 {
             // The rigid-body motion twists nothing.
             let part: Vec<f64> = modes.iter().map(|mode| mode.twists[index]).collect();
-            add_square(&mut matrix, damping, &part);
+            matrix.add_square(damping, &part);
         }
     }
     let shapes = || modes.iter().map(|mode| mode.shape.as_slice()).chain(rigid);
     for (group, damping) in equations.ground_damping.iter().enumerate().filter(|(_, d)| **d != 0.0)
     {
         let part: Vec<f64> = shapes().map(|shape| shape[group]).collect();
-        add_square(&mut matrix, *damping, &part);
+        matrix.add_square(*damping, &part);
     }
     matrix
-}
-
-/// Adds `factor · part partᵀ`, the part in the first rows and columns.
-fn add_square(matrix: &mut Matrix, factor: f64, part: &[f64]) {
-    for (row, first) in part.iter().enumerate() {
-        let scaled = factor * first;
-        for (entry, second) in matrix.row_mut(row).iter_mut().zip(part) {
-            *entry += scaled * second;
-        }
-    }
 }
 
 fn is_diagonal(matrix: &Matrix) -> bool {

@@ -103,7 +103,7 @@ impl<'l> Telling<'l> {
     }
 
     /// Shares of the kinetic energy by inertia.
-    pub(super) fn kinetic_shares(&self, groups: &[f64]) -> Vec<f64> {
+    fn kinetic_shares(&self, groups: &[f64]) -> Vec<f64> {
         let energy = |node: &&NodePlace| {
             let speed = node.ratio * groups[node.group];
             node.inertia * speed * speed
@@ -112,13 +112,18 @@ impl<'l> Telling<'l> {
     }
 
     /// Shares of the strain energy by connection, of magnitudes where a tangent is negative.
-    pub(super) fn strain_shares(&self, mode: &ElasticMode) -> Vec<f64> {
+    fn strain_shares(&self, mode: &ElasticMode) -> Vec<f64> {
         let springs = self.stiffness.iter().zip(&mode.twists);
         shares(springs.map(|(stiffness, twist)| (stiffness * twist * twist).abs()).collect())
     }
 
-    /// A mode in words, from the shares of its energies.
-    pub(super) fn words(&self, strain: &[f64], kinetic: &[f64]) -> String {
+    /// A mode in words.
+    pub(super) fn in_words(&self, mode: &ElasticMode) -> String {
+        self.words(&self.strain_shares(mode), &self.kinetic_shares(&mode.shape))
+    }
+
+    /// The same from the shares of its energies.
+    fn words(&self, strain: &[f64], kinetic: &[f64]) -> String {
         label(
             strain,
             |index| self.equations.connections[index].name.as_str(),

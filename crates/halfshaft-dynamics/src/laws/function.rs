@@ -16,6 +16,7 @@ use super::describing::DescribingFunction;
 struct Stretch {
     origin: f64,
     torque: Polynomial,
+    stiffness: Polynomial,
     /// Energy above zero twist, J.
     energy: Polynomial,
 }
@@ -38,7 +39,12 @@ impl FunctionLaw {
         let preload = Polynomial::new([preload]);
         let stretch = |(origin, coefficients): (f64, &[f64])| {
             let torque = Polynomial::new(coefficients).add(&preload);
-            Stretch { origin, energy: torque.antiderivative(), torque }
+            Stretch {
+                origin,
+                energy: torque.antiderivative(),
+                stiffness: torque.derivative(),
+                torque,
+            }
         };
         let stretches: Vec<Stretch> = law.pieces().map(stretch).collect();
         let breaks = law.breaks_rad().to_vec();
@@ -93,7 +99,7 @@ impl FunctionLaw {
     #[inline]
     pub fn curvature(&self, x: f64) -> f64 {
         let stretch = self.at(x);
-        stretch.torque.derivative().evaluate_with_slope(x - stretch.origin).1
+        stretch.stiffness.evaluate_with_slope(x - stretch.origin).1
     }
 
     /// Potential energy above zero twist, J.

@@ -73,6 +73,19 @@ impl Matrix {
         &mut self.entries[row * self.columns..(row + 1) * self.columns]
     }
 
+    /// Adds `factor · part partᵀ`, the part in the first rows and columns.
+    ///
+    /// # Panics
+    /// Where the part is longer than the matrix has rows.
+    pub fn add_square(&mut self, factor: f64, part: &[f64]) {
+        for (row, first) in part.iter().enumerate() {
+            let scaled = factor * first;
+            for (entry, second) in self.row_mut(row).iter_mut().zip(part) {
+                *entry += scaled * second;
+            }
+        }
+    }
+
     /// A copy of one column. Panics, like any index, if there is no such column.
     pub fn column(&self, column: usize) -> Vec<f64> {
         (0..self.rows).map(|row| self[(row, column)]).collect()

@@ -6,6 +6,8 @@
 //! there is none, however near to touching the motion comes. Most motions that leave do so straight on:
 //! where the slope is negative for sure up to beyond the root, Newton's method has it at once.
 
+use super::horner::value_and_slope;
+
 /// Coefficients of a polynomial over an interval, in Bernstein form.
 type Form = Vec<f64>;
 
@@ -63,9 +65,15 @@ fn straight_on(powers: &[f64]) -> Option<Option<f64>> {
     if value_and_slope(powers, end).0 >= 0.0 {
         return (end == 1.0).then_some(None);
     }
-    let (mut low, mut high, mut at) = (0.0, end, guess.min(end));
+    Some(Some(bracketed(end, guess.min(end), |at| value_and_slope(powers, at))))
+}
+
+/// The only root in `(0, high)` of what begins positive and ends negative, from a guess: Newton's steps,
+/// or halvings where these leave the bracket.
+fn bracketed(mut high: f64, guess: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let (mut low, mut at) = (0.0, guess);
     for _ in 0..MOST_ITERATIONS {
-        let (value, slope) = value_and_slope(powers, at);
+        let (value, slope) = function(at);
         if value < 0.0 {
             high = at;
         } else {
@@ -75,16 +83,11 @@ fn straight_on(powers: &[f64]) -> Option<Option<f64>> {
         let next = if newton > low && newton < high { newton } else { f64::midpoint(low, high) };
         let moved = (next - at).abs();
         at = next;
-        if moved <= f64::EPSILON * at {
+        if moved <= f64::EPSILON {
             break;
         }
     }
-    Some(Some(at))
-}
-
-/// Value and slope of a polynomial in powers, by multiplications and additions that every processor has.
-pub(crate) fn value_and_slope(powers: &[f64], at: f64) -> (f64, f64) {
-    powers.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * at + c, slope * at + value))
+    at
 }
 
 /// Bernstein coefficients over `[0, 1]` of a polynomial in powers.
@@ -139,24 +142,8 @@ fn changes(form: &Form) -> usize {
 
 /// The only root in `(0, 1)` of a form that begins positive and ends negative.
 fn single(form: &Form) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut at = form[0] / (form[0] - form[form.len() - 1]);
-    for _ in 0..MOST_ITERATIONS {
-        let (value, slope) = evaluate(form, at);
-        if value < 0.0 {
-            high = at;
-        } else {
-            low = at;
-        }
-        let newton = at - value / slope;
-        let next = if newton > low && newton < high { newton } else { f64::midpoint(low, high) };
-        let moved = (next - at).abs();
-        at = next;
-        if moved <= f64::EPSILON {
-            break;
-        }
-    }
-    at
+    let guess = form[0] / (form[0] - form[form.len() - 1]);
+    bracketed(1.0, guess, |at| evaluate(form, at))
 }
 
 /// Value and slope by de Casteljau's rule.

@@ -30,7 +30,7 @@ pub(super) fn value_and_bound(coefficients: &[f64], x: f64) -> (f64, f64) {
 
 /// `p(x)` and `p'(x)`.
 #[inline]
-pub(super) fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
+pub(crate) fn value_and_slope(coefficients: &[f64], x: f64) -> (f64, f64) {
     let (mut value, mut slope) = (0.0, 0.0);
     for &c in coefficients.iter().rev() {
         slope = slope * x + value;

@@ -17,7 +17,7 @@ mod sampled;
 mod scaling;
 
 pub use first_exit::first_exit;
-pub(crate) use first_exit::value_and_slope;
+pub(crate) use horner::value_and_slope;
 pub use sampled::{SampleError, Sampled, sampled};
 
 use crate::small_list::SmallList;
@@ -91,7 +91,7 @@ impl Polynomial {
     /// `p(x)` and `p'(x)` in one pass.
     #[inline]
     pub fn evaluate_with_slope(&self, x: f64) -> (f64, f64) {
-        horner::value_and_slope(self.coefficients(), x)
+        value_and_slope(self.coefficients(), x)
     }
 
     /// `p'`.
