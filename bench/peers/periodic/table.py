@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass, field
 
+from printed import plain
+
 
 @dataclass
 class Found:
