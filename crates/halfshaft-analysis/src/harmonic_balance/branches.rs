@@ -245,8 +245,7 @@ impl<'j, 'f> Job<'j, 'f> {
                 ends,
             };
         }
-        let stability: Vec<Stability> =
-            samples.iter().map(|sample| tracer.judge(judge, sample).unwrap_or_default()).collect();
+        let stability = tracer.judge_all(judge, &samples);
         let mut specials = tracer.specials(judge, &samples, &stability);
         let base = tracer.problem.system.base;
         if tracer.shoots() {

@@ -109,6 +109,31 @@ impl Tracer<'_, '_> {
         judge.stability(&self.problem.system, &sample.u, place)
     }
 
+    /// The stability of all samples of a branch; those over the same harmonics at once where the line
+    /// allows it.
+    pub(super) fn judge_all(&mut self, judge: &mut Judge, samples: &[Sample]) -> Vec<Stability> {
+        let mut all = Vec::with_capacity(samples.len());
+        for run in samples.chunk_by(|a, b| a.set == b.set) {
+            let together = self.judge_together(judge, run);
+            all.extend(together.unwrap_or_else(|| {
+                let one = |sample| self.judge(judge, sample).unwrap_or_default();
+                run.iter().map(one).collect()
+            }));
+        }
+        all
+    }
+
+    fn judge_together(&mut self, judge: &Judge, run: &[Sample]) -> Option<Vec<Stability>> {
+        let first = run.first()?;
+        if self.shoots() || matches!(self.problem.axis, Axis::Parameter(_)) {
+            return None;
+        }
+        self.use_set(&first.set, &mut first.u.clone(), &first.set);
+        let place = |sample: &Sample| self.problem.place_at(sample.p);
+        let responses: Vec<_> = run.iter().map(|s| (s.u.as_slice(), place(s))).collect();
+        judge.stabilities(&self.problem.system, &responses)
+    }
+
     /// Closes in on a zero of a test between two samples over one set of harmonics, to a part of the
     /// segment.
     fn close_in(

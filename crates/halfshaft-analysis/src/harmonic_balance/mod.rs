@@ -7,7 +7,7 @@
 //! | `system`, `kinks` | residual and Jacobian (alternating frequency-time; from kink to kink) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer`, `closing` | pseudo-arclength continuation |
-//! | `series`, `tangents`, `switching`, `lanes`, `panels`, `structure`, `whole_line`, `monodromy`, `hill`, `stability` | Floquet multipliers, two ways |
+//! | `series`, `tangents`, `switching`, `lanes`, `panels`, `structure`, `whole_line`, `monodromy`, `side_by_side`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
 //! | `exact` | branches of lines with kinks, by shooting |
@@ -63,6 +63,7 @@ mod seeds;
 mod segment;
 mod series;
 mod settling;
+mod side_by_side;
 mod skeleton;
 mod special;
 mod stability;

@@ -24,6 +24,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use super::panels::Panels;
 use super::reduction::Reduction;
 use super::series::{Truncation, Waves};
+use super::side_by_side::{ORBITS, SideBySide};
 use super::structure::Structure;
 use super::switching::passages;
 use super::tangents::{Degree, Place, linear_tangents};
@@ -47,6 +48,8 @@ pub(super) struct Variational {
     first: Cell<f64>,
     /// A few modes that a long line with few nonlinear connections is as good as.
     reduction: Reduction,
+    /// A small smooth line, several of whose orbits are taken at once.
+    side_by_side: Option<SideBySide>,
 }
 
 /// Steps a period at most.
@@ -62,7 +65,12 @@ impl Variational {
         for index in nonlinear {
             laws[*index] = Some(equations.connections[*index].law.pieces());
         }
-        Self { laws, first: Cell::new(0.0), reduction: Reduction::new(nonlinear) }
+        Self {
+            side_by_side: SideBySide::new(equations, &laws),
+            laws,
+            first: Cell::new(0.0),
+            reduction: Reduction::new(nonlinear),
+        }
     }
 
     /// The same without modes, for holding them against it.
@@ -81,10 +89,26 @@ impl Variational {
     ) -> Result<Vec<Complex>, halfshaft_numerics::Error> {
         let period = std::f64::consts::TAU / orbit.speed;
         let end = if orbit.set.is_odd() { 0.5 * period } else { period };
-        let matrix = self.monodromy(equations, orbit, end)?;
-        let mut values = spectrum(&matrix)?;
-        values.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
-        Ok(values)
+        sorted_spectrum(&self.monodromy(equations, orbit, end)?)
+    }
+
+    /// The same of many orbits, all over the same harmonics; `None` for a line whose orbits are taken
+    /// one by one.
+    pub(super) fn multipliers_of_all(
+        &self,
+        equations: &EquationsOfMotion,
+        orbits: &[Orbit<'_>],
+    ) -> Option<Vec<Vec<Complex>>> {
+        let side_by_side = self.side_by_side.as_ref()?;
+        let turn = std::f64::consts::TAU;
+        let mut all = Vec::with_capacity(orbits.len());
+        for few in orbits.chunks(ORBITS) {
+            let end = if few[0].set.is_odd() { 0.5 * turn } else { turn };
+            for matrix in side_by_side.monodromy(equations, few, end)? {
+                all.push(sorted_spectrum(&matrix).ok()?);
+            }
+        }
+        Some(all)
     }
 
     /// The fundamental matrix from 0 to `end`, in twists and their rates (over the fundamental
@@ -196,6 +220,13 @@ impl Variational {
         }
         active
     }
+}
+
+/// Eigenvalues, largest modulus first.
+fn sorted_spectrum(matrix: &Matrix) -> Result<Vec<Complex>, halfshaft_numerics::Error> {
+    let mut values = spectrum(matrix)?;
+    values.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
+    Ok(values)
 }
 
 /// Eigenvalues; two by two in closed form.

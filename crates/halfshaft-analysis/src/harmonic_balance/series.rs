@@ -81,6 +81,31 @@ impl Waves {
     }
 }
 
+impl Waves {
+    /// The series of several twists side by side, as many terms as `out` has rows.
+    #[inline(always)]
+    pub(super) fn sums<const N: usize>(
+        &self,
+        set: &HarmonicSet,
+        coefficients: &[[f64; N]],
+        out: &mut [[f64; N]],
+    ) {
+        out.fill([0.0; N]);
+        for ((order, place), (cosines, sines)) in set.places().zip(&self.series) {
+            if order == 0 {
+                out[0] = coefficients[place];
+                continue;
+            }
+            let (a, b) = (&coefficients[place], &coefficients[place + 1]);
+            for (out, (cosine, sine)) in out.iter_mut().zip(cosines.iter().zip(sines)) {
+                for lane in 0..N {
+                    out[lane] += a[lane] * cosine + b[lane] * sine;
+                }
+            }
+        }
+    }
+}
+
 /// `1 / k`.
 const INVERSE: [f64; MOST + 2] = {
     let mut list = [0.0; MOST + 2];

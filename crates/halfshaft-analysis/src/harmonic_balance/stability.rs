@@ -97,14 +97,7 @@ impl Judge {
         u: &[f64],
         place: Place,
     ) -> Result<Stability, Failure> {
-        let m = system.set.coefficients();
-        let twists: Vec<(usize, Vec<f64>)> = (0..system.line.twists.len())
-            .map(|index| {
-                let mut twist = vec![0.0; m];
-                system.twist(index, u, &mut twist);
-                (system.line.twists[index].connection, twist)
-            })
-            .collect();
+        let twists = twists(system, u);
         let speed = system.fundamental(place);
         let orbit = Orbit { set: &system.set, speed, twists: &twists };
         let equations = &system.line.equations;
@@ -125,6 +118,37 @@ impl Judge {
         };
         Ok(Stability::of(raw, system.set.is_odd()))
     }
+}
+
+impl Judge {
+    /// The stability of many responses over the harmonics of `system`; `None` where they are found one
+    /// by one.
+    pub(super) fn stabilities(
+        &self,
+        system: &HarmonicSystem,
+        responses: &[(&[f64], Place)],
+    ) -> Option<Vec<Stability>> {
+        if self.method != StabilityMethod::Monodromy {
+            return None;
+        }
+        let list: Vec<_> = responses.iter().map(|(u, _)| twists(system, u)).collect();
+        let mut orbits = Vec::with_capacity(list.len());
+        for ((_, place), twists) in responses.iter().zip(&list) {
+            orbits.push(Orbit { set: &system.set, speed: system.fundamental(*place), twists });
+        }
+        let all = self.variational.multipliers_of_all(&system.line.equations, &orbits)?;
+        Some(all.into_iter().map(|raw| Stability::of(raw, system.set.is_odd())).collect())
+    }
+}
+
+/// Coefficients of the twist of each nonlinear connection at a response.
+fn twists(system: &HarmonicSystem, u: &[f64]) -> Vec<(usize, Vec<f64>)> {
+    let of = |(index, twist): (usize, &super::line::NonlinearTwist)| {
+        let mut coefficients = vec![0.0; system.set.coefficients()];
+        system.twist(index, u, &mut coefficients);
+        (twist.connection, coefficients)
+    };
+    system.line.twists.iter().enumerate().map(of).collect()
 }
 
 /// A number that passes through zero where a multiplier crosses the unit circle in the given way;

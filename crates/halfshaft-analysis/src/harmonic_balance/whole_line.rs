@@ -45,6 +45,11 @@ impl<'e> WholeLine<'e> {
         }
     }
 
+    /// The equations that it is made of.
+    pub(super) fn equations(&self) -> &'e EquationsOfMotion {
+        self.equations
+    }
+
     /// The coefficients of the angles two powers of time above `power`. What springs do at a power and
     /// at the next is one pass over the same twists, so that of two passes the second has it: only its
     /// dampers wait for the rates.

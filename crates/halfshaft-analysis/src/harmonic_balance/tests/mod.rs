@@ -9,6 +9,7 @@ mod independent;
 mod lines;
 mod long;
 mod robust;
+mod side_by_side;
 
 use std::rc::Rc;
 
