@@ -138,7 +138,7 @@ proptest! {
         seed in 0_u64..1 << 40,
         nodes in 1_usize..14,
         more in 0_usize..6,
-        size in 1_usize..5,
+        size in 1_usize..14,
         borders in 0_usize..4,
     ) {
         let mut random = Random(seed);
@@ -157,7 +157,7 @@ proptest! {
         seed in 0_u64..1 << 40,
         nodes in 1_usize..10,
         more in 0_usize..4,
-        size in 2_usize..5,
+        size in 2_usize..14,
         borders in 0_usize..3,
     ) {
         let mut random = Random(seed);

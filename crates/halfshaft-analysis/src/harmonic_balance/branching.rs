@@ -131,22 +131,24 @@ impl Job<'_, '_> {
     pub(super) fn branch_off(&self, all: &mut Collected) {
         let mut at = 0;
         while at < all.branches.len() && at < MOST_BRANCHES {
-            let branch = all.branches[at].clone();
-            for special in branch.specials.iter().filter(|special| special.located) {
-                let follows = match special.kind {
-                    // Branches of twice the period are not asked where they double again.
-                    SpecialKind::PeriodDoubling => self.doublings && branch.periods == 1,
-                    SpecialKind::BranchPoint => true,
-                    _ => false,
-                };
-                if !follows || self.observer.cancelled() {
+            let branch = &all.branches[at];
+            let follows = |special: &&Special| match special.kind {
+                // Branches of twice the period are not asked where they double again.
+                SpecialKind::PeriodDoubling => self.doublings && branch.periods == 1,
+                SpecialKind::BranchPoint => true,
+                _ => false,
+            };
+            let parting = branch.specials.iter().filter(|special| special.located).filter(follows);
+            let forks: Vec<(Special, Fork)> =
+                parting.map(|special| (special.clone(), Fork::new(branch, special))).collect();
+            for (special, fork) in &forks {
+                if self.observer.cancelled() {
+                    break;
+                }
+                if is_end(&all.branches, fork) || all.cut_off() {
                     continue;
                 }
-                let fork = Fork::new(&branch, special);
-                if is_end(&all.branches, &fork) || all.cut_off() {
-                    continue;
-                }
-                match self.switch(all, at, special, &fork) {
+                match self.switch(all, at, special, fork) {
                     Switched::Found(found) => all.branches.push(found),
                     Switched::Known => {}
                     Switched::Lost => all.messages.push(format!(

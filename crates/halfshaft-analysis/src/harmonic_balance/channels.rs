@@ -53,6 +53,9 @@ const LEAST_SAMPLES: usize = 32;
 /// Samples a period at least where a torque is no polynomial of the twist.
 const LEAST_TORQUE_SAMPLES: usize = 64;
 
+/// A step to a crest, rad, below which the parabola there tells its height to rounding.
+const NEAR_CREST: f64 = 1e-5;
+
 impl Channels {
     /// Channels of responses whose period is `periods` periods of the excitation.
     pub(super) fn new(set: &HarmonicSet, periods: u32) -> Self {
@@ -89,12 +92,17 @@ impl Channels {
         let mut values =
             Vec::with_capacity(3 * equations.connections.len() + 2 * equations.nodes.len());
         let (mut twist, mut rate) = (vec![0.0; m], vec![0.0; m]);
+        // Twists of shafts to ground, which are angles as well, with their places among the values.
+        let mut grounded: Vec<(usize, usize)> = Vec::new();
         for connection in &equations.connections {
             twist.fill(0.0);
             let ends = [connection.from, connection.to.map(|(group, ratio)| (group, -ratio))];
             for (group, factor) in ends.into_iter().flatten() {
                 let source = &groups[group * m..(group + 1) * m];
                 twist.iter_mut().zip(source).for_each(|(x, q)| *x += factor * q);
+            }
+            if let (Some((group, 1.0)), None) = (connection.from, connection.to) {
+                grounded.push((group, values.len()));
             }
             differentiate(&self.set, &twist, speed, &mut rate);
             let value = self.series(&twist);
@@ -103,6 +111,12 @@ impl Channels {
             values.push(self.torque(connection, &twist, &rate, speed, value));
         }
         for node in &equations.nodes {
+            let known =
+                grounded.iter().find(|(group, _)| *group == node.group && node.ratio == 1.0);
+            if let Some((_, at)) = known {
+                values.extend_from_within(*at..at + 2);
+                continue;
+            }
             let source = &groups[node.group * m..(node.group + 1) * m];
             twist.iter_mut().zip(source).for_each(|(x, q)| *x = node.ratio * q);
             differentiate(&self.set, &twist, speed, &mut rate);
@@ -134,34 +148,45 @@ impl Channels {
 
     /// The greatest value (least for a sign of -1) of a series whose samples are at hand.
     fn extreme(&self, coefficients: &[f64], sign: f64) -> f64 {
+        let near = self.near(sign);
+        let mut theta = near.start + near.offset;
+        let mut value = near.value;
+        let mut keep = |candidate: f64| {
+            if sign * candidate > sign * value {
+                value = candidate;
+            }
+        };
+        for _ in 0..6 {
+            let [here, slope, curvature] = with_slopes(&self.set, coefficients, theta);
+            keep(here);
+            let step = -slope / curvature;
+            let away = (theta + step - near.start).abs();
+            if !step.is_finite() || away > near.spacing || sign * curvature > 0.0 {
+                break;
+            }
+            if step.abs() < NEAR_CREST {
+                keep(here + 0.5 * slope * step);
+                break;
+            }
+            theta += step;
+        }
+        value
+    }
+
+    /// The greatest sample (least for a sign of -1), and how far beyond it the parabola through its
+    /// neighbours has its crest.
+    fn near(&self, sign: f64) -> Near {
         let count = self.samples.len();
         let best = (0..count).fold(0, |best, at| {
             if sign * self.samples[at] > sign * self.samples[best] { at } else { best }
         });
         let spacing = std::f64::consts::TAU / count as f64;
-        let start = spacing * best as f64;
-        let mut theta = start;
-        let mut value = self.samples[best];
-        for _ in 0..6 {
-            let [here, slope, curvature] = with_slopes(&self.set, coefficients, theta);
-            if sign * here > sign * value {
-                value = here;
-            }
-            let step = -slope / curvature;
-            if !step.is_finite() || (theta + step - start).abs() > spacing || sign * curvature > 0.0
-            {
-                break;
-            }
-            theta += step;
-            if step.abs() < 1e-8 {
-                let here = with_slopes(&self.set, coefficients, theta)[0];
-                if sign * here > sign * value {
-                    value = here;
-                }
-                break;
-            }
-        }
-        value
+        let value = self.samples[best];
+        let before = self.samples[if best == 0 { count - 1 } else { best - 1 }];
+        let after = self.samples[if best + 1 == count { 0 } else { best + 1 }];
+        let bend = before - 2.0 * value + after;
+        let offset = if bend == 0.0 { 0.0 } else { 0.5 * spacing * (before - after) / bend };
+        Near { start: spacing * best as f64, spacing, offset, sign, value }
     }
 
     /// Values of the torque of a connection: its law, friction and damper.
@@ -198,11 +223,7 @@ impl Channels {
         // Of a motion that mirrors itself the one end is the other's image.
         let both = if self.set.is_odd() { 1 } else { 2 };
         for (end, sign) in ends.iter_mut().zip([1.0, -1.0]).take(both) {
-            let best = (0..count).fold(0, |best, at| {
-                if sign * self.samples[at] > sign * self.samples[best] { at } else { best }
-            });
-            let near =
-                Near { start: spacing * best as f64, spacing, sign, value: self.samples[best] };
+            let near = self.near(sign);
             let smooth = connection.law.polynomial().is_some() && connection.friction.is_none();
             let crest = if smooth { self.crest(connection, twist, speed, near) } else { None };
             *end = crest.unwrap_or_else(|| {
@@ -254,14 +275,16 @@ impl Channels {
             let torque = connection.law.torque(x) + connection.damping * speed * slope;
             (torque, connection.law.stiffness(x) * slope + connection.damping * speed * bend)
         };
-        let (mut before, mut here) = (near.start - 0.5 * near.spacing, near.start);
+        let here = near.start + near.offset;
+        let (mut before, mut here) = (here - 0.02 * near.spacing, here);
         let mut slope_before = at(before).1;
         for _ in 0..8 {
             let (torque, slope) = at(here);
             let step = -slope * (here - before) / (slope - slope_before);
-            if slope == 0.0 || step.abs() < 1e-8 {
+            if slope == 0.0 || step.abs() < NEAR_CREST {
+                let crest = if slope == 0.0 { torque } else { torque + 0.5 * slope * step };
                 // Not the crest if that falls off.
-                return (near.sign * torque >= near.sign * near.value).then_some(torque);
+                return (near.sign * crest >= near.sign * near.value).then_some(crest);
             }
             (before, slope_before) = (here, slope);
             here += step;
@@ -278,6 +301,7 @@ impl Channels {
 struct Near {
     start: f64,
     spacing: f64,
+    offset: f64,
     /// 1 for the greatest, -1 for the least.
     sign: f64,
     value: f64,

@@ -92,8 +92,7 @@ impl Tracer<'_, '_> {
         judge: &mut Judge,
         sample: &Sample,
     ) -> Result<Stability, Failure> {
-        let mut u = sample.u.clone();
-        self.use_set(&sample.set, &mut u, &sample.set);
+        self.choose(&sample.set);
         let place = self.problem.place_at(sample.p);
         if matches!(self.problem.axis, Axis::Parameter(_)) {
             self.problem.line_at(sample.p)?;
@@ -128,7 +127,7 @@ impl Tracer<'_, '_> {
         if self.shoots() || matches!(self.problem.axis, Axis::Parameter(_)) {
             return None;
         }
-        self.use_set(&first.set, &mut first.u.clone(), &first.set);
+        self.choose(&first.set);
         let place = |sample: &Sample| self.problem.place_at(sample.p);
         let responses: Vec<_> = run.iter().map(|s| (s.u.as_slice(), place(s))).collect();
         judge.stabilities(&self.problem.system, &responses)

@@ -55,11 +55,11 @@ impl<'s> Measured<'s> {
     }
 
     /// Speed, and the number that runs in its place, of a sample.
-    fn place(&self, sample: &Sample) -> Vec<(String, &'static str, f64)> {
+    fn place(&self, sample: &Sample) -> Vec<(String, f64)> {
         let speed = self.along.map_or(sample.p, |along| along.frequency);
-        let mut place = vec![("frequency".to_owned(), "rad/s", speed)];
+        let mut place = vec![("frequency".to_owned(), speed)];
         if let Some(along) = &self.along {
-            place.push((along.address.to_owned(), along.unit, sample.p));
+            place.push((along.address.to_owned(), sample.p));
         }
         place
     }
@@ -69,9 +69,14 @@ impl<'s> Measured<'s> {
             branch.samples.iter().map(|s| self.values(s, branch.base, branch.periods)).collect();
         let of = |value: &dyn Fn(usize) -> f64| (0..rows.len()).map(value).collect::<Vec<f64>>();
         let mut columns: Vec<Column> = Vec::new();
-        let places: Vec<_> = branch.samples.iter().map(|sample| self.place(sample)).collect();
-        for (index, (name, unit, _)) in places.first().into_iter().flatten().enumerate() {
-            columns.push(Column::new(name.clone(), *unit, of(&|k| places[k][index].2)));
+        let running = branch.samples.iter().map(|sample| sample.p).collect();
+        match &self.along {
+            None => columns.push(Column::new("frequency".to_owned(), "rad/s", running)),
+            Some(along) => {
+                let held = vec![along.frequency; rows.len()];
+                columns.push(Column::new("frequency".to_owned(), "rad/s", held));
+                columns.push(Column::new(along.address.to_owned(), along.unit, running));
+            }
         }
         for (index, (name, unit)) in names(&self.setting.line.equations).into_iter().enumerate() {
             let mut add = |word: &str, value: &dyn Fn(&ChannelValue) -> f64| {
@@ -117,7 +122,7 @@ impl<'s> Measured<'s> {
     fn point(&mut self, branch: &TracedBranch, sample: &Sample) -> Named<f64> {
         let values = self.values(sample, branch.base, branch.periods);
         let mut all: Named<f64> = Named::default();
-        all.extend(self.place(sample).into_iter().map(|(name, _, value)| (name, value)));
+        all.extend(self.place(sample));
         all.extend(named(&self.setting.line.equations, &values));
         all
     }

@@ -1,5 +1,7 @@
 //! Where the next sample of a curve is expected: beyond the tangent, from the last two samples.
 
+use std::borrow::Cow;
+
 use halfshaft_numerics::harmonics::HarmonicSet;
 
 use super::problem::Metric;
@@ -21,16 +23,16 @@ pub(super) fn bend(
     (along, along_p): (&[f64], f64),
     (u, p): (&mut [f64], &mut f64),
 ) {
-    let here = refit(&last.set, set, 1, &last.u);
-    let there = refit(&before.set, set, 1, &before.u);
-    let back: Vec<f64> = there.iter().zip(&here).map(|(a, b)| a - b).collect();
+    let here = fitted(&last.set, set, &last.u);
+    let there = fitted(&before.set, set, &before.u);
+    let back: Vec<f64> = there.iter().zip(&*here).map(|(a, b)| a - b).collect();
     let back_p = before.p - last.p;
     // before = last - d t + d² a - d³ b, with the slope t - 2 d a + 3 d² b.
     let d = -metric.dot((&back, back_p), (along, along_p));
     if d <= 0.0 || step > LONGEST * d {
         return;
     }
-    let slope = refit(&before.set, set, 1, &before.tangent);
+    let slope = fitted(&before.set, set, &before.tangent);
     let turn = metric.dot((&slope, before.tangent_p), (along, along_p));
     let length = metric.norm(&slope, before.tangent_p);
     let fits = turn > LEAST_TURN * length;
@@ -43,10 +45,15 @@ pub(super) fn bend(
         let slopes = 0.5 * d * (along - slope / turn);
         square * (3.0 * chord - 2.0 * slopes) + cube * 2.0 * (chord - slopes)
     };
-    for (((u, back), along), slope) in u.iter_mut().zip(&back).zip(along).zip(&slope) {
+    for (((u, back), along), slope) in u.iter_mut().zip(&back).zip(along).zip(&*slope) {
         *u += predicted(*back, *along, *slope);
     }
     *p += predicted(back_p, along_p, before.tangent_p);
+}
+
+/// Coefficients over another set of harmonics; the same ones where the set is the same.
+fn fitted<'u>(from: &HarmonicSet, to: &HarmonicSet, u: &'u [f64]) -> Cow<'u, [f64]> {
+    if from == to { Cow::Borrowed(u) } else { Cow::Owned(refit(from, to, 1, u)) }
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
 use super::line::Line;
-use super::problem::{Axis, Problem};
+use super::problem::{Axis, Metric, Problem};
 use super::system::{HarmonicSystem, Place};
 use super::tracer::{Counted, Sample, TraceSettings, Tracer, length, work_of};
 
@@ -35,7 +35,7 @@ const LAST_DRIVE: f64 = 20.0;
 const MOST_SAMPLES: usize = 300;
 const LEAST_MOST_SAMPLES: usize = 60;
 /// Miss of the tangent on these rough curves.
-const ROUGH: f64 = 0.06;
+const ROUGH: f64 = 0.15;
 
 /// The curve over the drive at one speed.
 #[derive(Clone, Debug)]
@@ -114,7 +114,7 @@ pub(super) fn drive_curve(
         let sign = if start.tangent_p < 0.0 { -1.0 } else { 1.0 };
         let (samples, _) = tracer.follow(&start, sign);
         for pair in samples.windows(2) {
-            curve.seeds.extend(passage(&mut tracer, &pair[0], &pair[1]));
+            curve.seeds.extend(passages(&mut tracer, &pair[0], &pair[1]));
         }
         // At one speed the torques of drive 1 are the same all along.
         let torques = tracer.problem.system.by_drive.clone();
@@ -150,6 +150,53 @@ pub(super) fn reactive(set: &HarmonicSet, torques: &[f64], u: &[f64], order: usi
         torque[place] * response[place] + torque[place + 1] * response[place + 1]
     };
     torques.chunks_exact(m).zip(u.chunks_exact(m)).map(of).sum()
+}
+
+/// The responses of drive 1 between two samples of a curve over the drive: two where it turns between
+/// them beyond 1.
+fn passages(tracer: &mut Tracer<'_, '_>, from: &Sample, to: &Sample) -> Vec<Seed> {
+    let crosses = |a: &Sample, b: &Sample| (a.p - 1.0) * (b.p - 1.0) <= 0.0;
+    if crosses(from, to) {
+        return passage(tracer, from, to).into_iter().collect();
+    }
+    let Some(part) = turn_beyond(from, to) else { return Vec::new() };
+    let Ok(middle) = tracer.on_segment((from, to), part, &from.set) else { return Vec::new() };
+    if !crosses(from, &middle) {
+        return Vec::new();
+    }
+    [(from, &middle), (&middle, to)]
+        .into_iter()
+        .filter_map(|(a, b)| passage(tracer, a, b))
+        .collect()
+}
+
+/// Part of the way between two samples on the same side of drive 1 at which the cubic through them and
+/// their directions turns on the other side.
+fn turn_beyond(from: &Sample, to: &Sample) -> Option<f64> {
+    let metric = Metric { size: from.metric.0, span: from.metric.1 };
+    let chord: Vec<f64> = to.u.iter().zip(&from.u).map(|(b, a)| b - a).collect();
+    let way = to.p - from.p;
+    let square = metric.norm(&chord, way).powi(2);
+    // Change of the drive as the chord is passed at unit speed.
+    let [first, last] = [from, to].map(|sample| {
+        let share = metric.dot((&sample.tangent, sample.tangent_p), (&chord, way));
+        if share > 0.0 { sample.tangent_p * square / share } else { f64::NAN }
+    });
+    if !(first * last < 0.0) {
+        return None;
+    }
+    let (bend, twist) = (3.0 * way - 2.0 * first - last, first + last - 2.0 * way);
+    let drive = |s: f64| from.p + s * (first + s * (bend + s * twist));
+    let turns = real_quadratic(3.0 * twist, 2.0 * bend, first);
+    let inside = turns.into_iter().filter(|s| *s > 0.0 && *s < 1.0);
+    let mut beyond = inside.filter(|s| (drive(*s) - 1.0) * (from.p - 1.0) < 0.0);
+    beyond.next()
+}
+
+/// Real roots of `a x² + b x + c`.
+fn real_quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
+    let sum = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
+    [sum / a, c / sum]
 }
 
 /// The response of drive 1 between two samples of a curve over the drive.

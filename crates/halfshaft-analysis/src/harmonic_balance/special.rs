@@ -166,9 +166,13 @@ impl Tracer<'_, '_> {
         if matches!(self.problem.axis, Axis::Parameter(_)) {
             return Vec::new();
         }
+        let touched = touches(&self.problem.system.line, from, to);
+        if touched.is_empty() {
+            return Vec::new();
+        }
         let line = self.problem.system.line.clone();
         let mut specials = Vec::new();
-        for touch in touches(&line, from, to) {
+        for touch in touched {
             let beyond = |sample: &Sample| touch.beyond(&line, sample);
             let place = self.locate(judge, &Test::Value(&beyond), (from, to));
             let Some((sample, precision)) = place else { continue };

@@ -103,6 +103,8 @@ pub(crate) const MOST_HARMONICS: usize = 200;
 const SPARE: f64 = 0.01;
 /// The same for lines with kinks.
 const SPARE_AT_KINKS: f64 = 0.3;
+/// Samples of a branch that there is room for at first.
+const FIRST_ROOM: usize = 64;
 /// Harmonics that are always kept.
 pub(super) const LEAST_HARMONICS: usize = 3;
 
@@ -152,6 +154,14 @@ impl<'t, 'f> Tracer<'t, 'f> {
 
     /// Makes the problem one of the given harmonics and fits `u` to it.
     pub(super) fn use_set(&mut self, set: &HarmonicSet, u: &mut Vec<f64>, from: &HarmonicSet) {
+        self.choose(set);
+        if from != set {
+            *u = refit(from, set, 1, u);
+        }
+    }
+
+    /// Makes the problem one of the given harmonics.
+    pub(super) fn choose(&mut self, set: &HarmonicSet) {
         if self.problem.system.set != *set {
             let known = self.spare.iter().position(|problem| problem.system.set == *set);
             let mut next = match known {
@@ -162,7 +172,6 @@ impl<'t, 'f> Tracer<'t, 'f> {
             std::mem::swap(&mut self.problem, &mut next);
             self.spare.push(next);
         }
-        *u = refit(from, set, 1, u);
     }
 
     pub(super) fn metric(&self, u: &[f64]) -> Metric {
@@ -249,11 +258,11 @@ impl<'t, 'f> Tracer<'t, 'f> {
 
     /// Follows the curve from `start` in the direction of `sign` times its tangent.
     pub(super) fn follow(&mut self, start: &Sample, sign: f64) -> (Vec<Sample>, BranchEnd) {
-        let mut samples = vec![oriented(start, sign)];
+        let mut samples = Vec::with_capacity(FIRST_ROOM);
+        samples.push(oriented(start, sign));
         let mut step = 0.02;
         let mut set = start.set.clone();
-        let mut scratch = start.u.clone();
-        self.use_set(&set, &mut scratch, &start.set);
+        self.choose(&set);
         let mut work = 0.0;
         let end = loop {
             if self.observer.cancelled() {
@@ -332,17 +341,18 @@ impl<'t, 'f> Tracer<'t, 'f> {
         step: f64,
         set: &mut HarmonicSet,
     ) -> Result<(Sample, f64), Failure> {
-        let mut from = last.u.clone();
-        self.use_set(set, &mut from, &last.set);
+        self.choose(set);
+        let from = refit(&last.set, set, 1, &last.u);
         let metric = self.metric(&from);
         let mut along = refit(&last.set, set, 1, &last.tangent);
         let mut along_p = last.tangent_p;
         let norm = metric.norm(&along, along_p);
         along.iter_mut().for_each(|x| *x /= norm);
         along_p /= norm;
-        let mut u: Vec<f64> = from.iter().zip(&along).map(|(u, t)| u + step * t).collect();
-        let mut p = last.p + step * along_p;
-        let (straight, straight_p) = (u.clone(), p);
+        let mut straight = from;
+        straight.iter_mut().zip(&along).for_each(|(u, t)| *u += step * t);
+        let straight_p = last.p + step * along_p;
+        let (mut u, mut p) = (straight.clone(), straight_p);
         if let Some(before) = before {
             bend((last, before), set, &metric, step, (&along, along_p), (&mut u, &mut p));
         }
@@ -351,20 +361,20 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let target = |weights: &[f64], at: &[f64], at_p: f64| {
             weights.iter().zip(at).map(|(w, x)| w * x).sum::<f64>() + corner * at_p
         };
-        let condition =
-            Condition { row: &weights, corner, target: target(&weights, &straight, straight_p) };
+        let held = target(&weights, &straight, straight_p);
+        let condition = Condition { row: &weights, corner, target: held };
         let done = self.problem.correct_next(&mut u, &mut p, &condition, &metric)?;
         self.counted.iterations += done.iterations;
-        let miss: Vec<f64> = u.iter().zip(&straight).map(|(a, b)| a - b).collect();
-        let miss = metric.norm(&miss, p - straight_p);
+        straight.iter_mut().zip(&u).for_each(|(a, b)| *a -= b);
+        let miss = metric.norm(&straight, p - straight_p);
         // More or fewer harmonics where the tolerance asks for them.
-        let mut resized = weights.clone();
+        let mut resized = weights;
         for _ in 0..MOST_HARMONICS {
             let Some(next) = self.adapted(set, &u) else { break };
             resized = refit(set, &next, 1, &resized);
             self.use_set(&next, &mut u, set);
             *set = next;
-            let condition = Condition { row: &resized, corner, target: condition.target };
+            let condition = Condition { row: &resized, corner, target: held };
             let done: Corrected = self.problem.correct(&mut u, &mut p, &condition, &metric)?;
             self.counted.iterations += done.iterations;
         }

@@ -1,15 +1,28 @@
 //! Dense kernels on row-major slices: factorisation with partial pivoting, solves, products.
 
+use super::fixed;
+
 /// From this order on blocks are left to the library.
 const LARGE: usize = 64;
 /// So many right-hand sides or columns are worth its preparations.
 const MANY: usize = 8;
 
 /// Factorises the `n` by `n` matrix in place; `false` where a pivot vanishes or is not finite.
-/// `sign` is multiplied by the sign of the determinant.
+/// `sign` is multiplied by the sign of the determinant. `N` is `n` where that is known before, else 0.
 #[inline(always)]
-pub(super) fn factorise(a: &mut [f64], n: usize, pivots: &mut [usize], sign: &mut f64) -> bool {
-    if n < LARGE { plain(a, n, pivots, sign) } else { super::large::factorise(a, n, pivots, sign) }
+pub(super) fn factorise<const N: usize>(
+    a: &mut [f64],
+    n: usize,
+    pivots: &mut [usize],
+    sign: &mut f64,
+) -> bool {
+    if N > 0 {
+        fixed::factorise::<N>(a, pivots, sign)
+    } else if n < LARGE {
+        plain(a, n, pivots, sign)
+    } else {
+        super::large::factorise(a, n, pivots, sign)
+    }
 }
 
 /// The same a column at a time.
@@ -69,9 +82,16 @@ pub(super) fn exchange(
     true
 }
 
-/// Solves `A X = R` in place for `columns` right-hand sides (row-major, `n` by `columns`).
+/// Solves `A X = R` in place for `columns` right-hand sides (row-major, `n` by `columns`). Where `N` is
+/// `n`, there is one or there are as many.
 #[inline(always)]
-pub(super) fn solve(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64], columns: usize) {
+pub(super) fn solve<const N: usize>(
+    lu: &[f64],
+    n: usize,
+    pivots: &[usize],
+    r: &mut [f64],
+    columns: usize,
+) {
     for k in 0..n {
         let best = pivots[k];
         if best != k {
@@ -79,8 +99,11 @@ pub(super) fn solve(lu: &[f64], n: usize, pivots: &[usize], r: &mut [f64], colum
             upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
         }
     }
-    if columns == 1 {
-        return solve_one(lu, n, r);
+    match (N > 0, columns) {
+        (true, 1) => return fixed::solve_one::<N>(lu, r),
+        (true, _) => return fixed::solve::<N, N>(lu, r),
+        (false, 1) => return solve_one(lu, n, r),
+        (false, _) => {}
     }
     if n >= LARGE && columns >= MANY {
         return super::large::solve(lu, n, r, columns);
@@ -163,15 +186,21 @@ pub(super) fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// `out -= A B` with `A` `rows` by `inner` and `B` `inner` by `columns`.
+/// `out -= A B` with `A` `rows` by `inner` and `B` `inner` by `columns`. Where `N` is `inner`, there is
+/// one column or there are as many.
 #[inline(always)]
-pub(super) fn subtract_product(
+pub(super) fn subtract_product<const N: usize>(
     a: &[f64],
     b: &[f64],
     inner: usize,
     columns: usize,
     out: &mut [f64],
 ) {
+    match (N > 0, columns) {
+        (true, 1) => return fixed::subtract_vector::<N>(a, b, out),
+        (true, _) => return fixed::subtract_product::<N, N>(a, b, out),
+        (false, _) => {}
+    }
     if columns == 1 {
         for (row, target) in a.chunks_exact(inner).zip(out) {
             *target -= dot(row, b);

@@ -102,7 +102,7 @@ mod tests {
         let none: Vec<usize> = (0..n).collect();
         for (at, column) in (0..n).map(|at| (at, y.iter().skip(at).step_by(n).copied())) {
             let mut column: Vec<f64> = column.collect();
-            kernel::solve(&lu, n, &none, &mut column, 1);
+            kernel::solve::<0>(&lu, n, &none, &mut column, 1);
             let own: Vec<f64> = x.iter().skip(at).step_by(n).copied().collect();
             assert!(near(&column, &own));
         }
@@ -111,7 +111,7 @@ mod tests {
         for column in 0..n {
             let of = |m: &[f64]| m.iter().skip(column).step_by(n).copied().collect::<Vec<_>>();
             let mut out = of(&b);
-            kernel::subtract_product(&lu, &of(&b), n, 1, &mut out);
+            kernel::subtract_product::<0>(&lu, &of(&b), n, 1, &mut out);
             assert!(near(&out, &of(&z)));
         }
     }

@@ -11,6 +11,7 @@
 //! separate bordering algorithm is needed. Compare W. Govaerts, *Numerical Methods for Bifurcations
 //! of Dynamical Equilibria* (2000), chapter 3.
 
+mod fixed;
 mod kernel;
 mod large;
 mod pattern;

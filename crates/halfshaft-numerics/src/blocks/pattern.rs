@@ -1,8 +1,13 @@
 //! Elimination order of a graph and the places of its blocks.
 
-/// Which blocks a system on a graph has, in order of elimination.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Pattern {
+use std::sync::Arc;
+
+/// Which blocks a system on a graph has, in order of elimination. Copies share one store.
+#[derive(Debug, Clone)]
+pub struct Pattern(Arc<Places>);
+
+#[derive(Debug, PartialEq, Eq)]
+struct Places {
     /// Node at each position of the order.
     order: Vec<usize>,
     /// Position of each node.
@@ -14,6 +19,14 @@ pub struct Pattern {
     /// Number of off-diagonal pairs.
     pairs: usize,
 }
+
+impl PartialEq for Pattern {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self.0 == other.0
+    }
+}
+
+impl Eq for Pattern {}
 
 impl Pattern {
     /// The pattern of a graph of `nodes` nodes (at least one) and the given edges.
@@ -60,49 +73,49 @@ impl Pattern {
             first.push(pairs);
             pairs += list.len();
         }
-        Self { order, position, later, first, pairs }
+        Self(Arc::new(Places { order, position, later, first, pairs }))
     }
 
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
-        self.order.len()
+        self.0.order.len()
     }
 
     /// Position of a node in the order of elimination.
     #[inline]
     pub fn position(&self, node: usize) -> usize {
-        self.position[node]
+        self.0.position[node]
     }
 
     /// The node that is eliminated last, with the border.
     pub fn last(&self) -> usize {
-        self.order.last().copied().unwrap_or(0)
+        self.0.order.last().copied().unwrap_or(0)
     }
 
     /// The node at a position of the order.
     #[inline]
     pub(super) fn node(&self, position: usize) -> usize {
-        self.order[position]
+        self.0.order[position]
     }
 
     pub(super) fn later(&self, position: usize) -> &[usize] {
-        &self.later[position]
+        &self.0.later[position]
     }
 
     pub(super) fn first(&self, position: usize) -> usize {
-        self.first[position]
+        self.0.first[position]
     }
 
     pub(super) fn pairs(&self) -> usize {
-        self.pairs
+        self.0.pairs
     }
 
     /// Place of the pair of blocks between two positions, the earlier one first.
     #[inline]
     pub(super) fn pair(&self, earlier: usize, later: usize) -> usize {
-        let list = &self.later[earlier];
+        let list = &self.0.later[earlier];
         let at = list.partition_point(|other| *other < later);
         debug_assert_eq!(list.get(at), Some(&later), "no such block");
-        self.first[earlier] + at
+        self.0.first[earlier] + at
     }
 }

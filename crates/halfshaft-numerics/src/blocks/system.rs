@@ -186,7 +186,7 @@ impl BlockSystem {
             }
         }
         match factors {
-            Some(factors) => pulp::Arch::new().dispatch(Run(factors)),
+            Some(factors) => sized(factors.order(), Run(factors)),
             None => Ok(()),
         }
     }
@@ -205,16 +205,62 @@ impl BlockSystem {
     }
 }
 
-/// The factorisation, its loops over small blocks compiled for the widest instructions of the
-/// processor.
-struct Run<'f>(&'f mut Factors);
+/// Work on blocks of order `M` with one border, `R` together; of any where both are 0.
+trait Work {
+    type Output;
+    fn run<const M: usize, const R: usize>(self) -> Self::Output;
+}
 
-impl pulp::NullaryFnOnce for Run<'_> {
-    type Output = Result<(), Error>;
+/// Work on blocks of one order, as what runs with the widest instructions of the processor.
+struct OfOrder<W, const M: usize, const R: usize>(W);
+
+impl<W: Work, const M: usize, const R: usize> pulp::NullaryFnOnce for OfOrder<W, M, R> {
+    type Output = W::Output;
 
     #[inline(always)]
     fn call(self) -> Self::Output {
-        self.0.run()
+        self.0.run::<M, R>()
+    }
+}
+
+/// Does work on blocks of an order, which is known to the compiler where blocks are small.
+fn sized<W: Work>(order: usize, work: W) -> W::Output {
+    let arch = pulp::Arch::new();
+    match order {
+        2 => arch.dispatch(OfOrder::<W, 2, 3>(work)),
+        3 => arch.dispatch(OfOrder::<W, 3, 4>(work)),
+        4 => arch.dispatch(OfOrder::<W, 4, 5>(work)),
+        6 => arch.dispatch(OfOrder::<W, 6, 7>(work)),
+        7 => arch.dispatch(OfOrder::<W, 7, 8>(work)),
+        8 => arch.dispatch(OfOrder::<W, 8, 9>(work)),
+        9 => arch.dispatch(OfOrder::<W, 9, 10>(work)),
+        10 => arch.dispatch(OfOrder::<W, 10, 11>(work)),
+        12 => arch.dispatch(OfOrder::<W, 12, 13>(work)),
+        _ => arch.dispatch(OfOrder::<W, 0, 0>(work)),
+    }
+}
+
+/// The factorisation.
+struct Run<'f>(&'f mut Factors);
+
+impl Work for Run<'_> {
+    type Output = Result<(), Error>;
+
+    #[inline(always)]
+    fn run<const M: usize, const R: usize>(self) -> Self::Output {
+        self.0.run::<M, R>()
+    }
+}
+
+/// The solution for one right-hand side and its border.
+struct Solve<'s>(&'s mut Factors, &'s mut [f64], &'s mut [f64]);
+
+impl Work for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const M: usize, const R: usize>(self) {
+        self.0.solve_sized::<M, R>(self.1, self.2);
     }
 }
 
@@ -224,14 +270,19 @@ impl Factors {
         self.sign
     }
 
+    /// The order of blocks with one border; 0 of those with others.
+    fn order(&self) -> usize {
+        if self.system.borders == 1 { self.system.size } else { 0 }
+    }
+
     #[inline(always)]
-    fn run(&mut self) -> Result<(), Error> {
+    fn run<const M: usize, const R: usize>(&mut self) -> Result<(), Error> {
         self.sign = 1.0;
         let last = self.system.pattern.nodes() - 1;
         for position in 0..last {
-            self.eliminate(position)?;
+            self.eliminate::<M>(position)?;
         }
-        let (m, k) = (self.system.size, self.system.borders);
+        let (m, k) = if M > 0 { (M, 1) } else { (self.system.size, self.system.borders) };
         let order = m + k;
         let system = &self.system;
         for row in 0..m {
@@ -247,7 +298,7 @@ impl Factors {
             target[..m].copy_from_slice(&system.rows[at..at + m]);
             target[m..].copy_from_slice(&system.corner[row * k..(row + 1) * k]);
         }
-        if factorise(&mut self.root, order, &mut self.root_pivots, &mut self.sign) {
+        if factorise::<R>(&mut self.root, order, &mut self.root_pivots, &mut self.sign) {
             Ok(())
         } else {
             Err(Error::Singular { dimension: self.system.unknowns() + k, column: last * m })
@@ -256,67 +307,69 @@ impl Factors {
 
     /// Takes one node out: divides its row of blocks and subtracts from what is joined.
     #[inline(always)]
-    fn eliminate(&mut self, position: usize) -> Result<(), Error> {
-        let system = &mut self.system;
-        let (m, k) = (system.size, system.borders);
+    fn eliminate<const M: usize>(&mut self, position: usize) -> Result<(), Error> {
+        let BlockSystem { pattern, size, borders, diagonal, upper, lower, columns, rows, corner } =
+            &mut self.system;
+        let (m, k) = if M > 0 { (M, 1) } else { (*size, *borders) };
         let square = m * m;
         let pivots = &mut self.pivots[position * m..(position + 1) * m];
-        let (before, after) = system.diagonal.split_at_mut((position + 1) * square);
+        let (before, after) = diagonal.split_at_mut((position + 1) * square);
         let own = &mut before[position * square..];
-        if !factorise(own, m, pivots, &mut self.sign) {
-            let dimension = system.pattern.nodes() * m + k;
+        if !factorise::<M>(own, m, pivots, &mut self.sign) {
+            let dimension = pattern.nodes() * m + k;
             return Err(Error::Singular { dimension, column: position * m });
         }
-        let later = system.pattern.later(position);
-        let first = system.pattern.first(position);
+        let (later, first) = (pattern.later(position), pattern.first(position));
         let pairs = first * square..(first + later.len()) * square;
-        for block in system.upper[pairs].chunks_exact_mut(square) {
-            solve(own, m, pivots, block, m);
-        }
-        let (own_columns, later_columns) = system.columns.split_at_mut((position + 1) * m * k);
-        let own_columns = &mut own_columns[position * m * k..];
-        let (own_rows, later_rows) = system.rows.split_at_mut((position + 1) * m * k);
-        let own_rows = &own_rows[position * m * k..];
-        if k > 0 {
-            solve(own, m, pivots, own_columns, k);
-            subtract_product(own_rows, own_columns, m, k, &mut system.corner);
+        for block in upper[pairs].chunks_exact_mut(square) {
+            solve::<M>(own, m, pivots, block, m);
         }
         let offset = (position + 1) * m * k;
+        let (own_columns, later_columns) = columns.split_at_mut(offset);
+        let own_columns = &mut own_columns[position * m * k..];
+        let (own_rows, later_rows) = rows.split_at_mut(offset);
+        let own_rows = &own_rows[position * m * k..];
+        if k > 0 {
+            solve::<M>(own, m, pivots, own_columns, k);
+            subtract_product::<M>(own_rows, own_columns, m, k, corner);
+        }
         for (at, &row) in later.iter().enumerate() {
-            let pair = (first + at) * square;
-            let left = system.lower[pair..pair + square].to_vec();
-            let place = row * m * k - offset;
+            let pair = (first + at) * square..(first + at + 1) * square;
+            let (left, right) = (&lower[pair.clone()], &upper[pair]);
             if k > 0 {
-                let target = &mut later_columns[place..place + m * k];
-                subtract_product(&left, own_columns, m, k, target);
-                let right = &system.upper[pair..pair + square];
-                subtract_product(own_rows, right, m, m, &mut later_rows[place..place + m * k]);
+                let place = row * m * k - offset..(row + 1) * m * k - offset;
+                let target = &mut later_columns[place.clone()];
+                subtract_product::<M>(left, own_columns, m, k, target);
+                subtract_product::<M>(own_rows, right, m, m, &mut later_rows[place]);
             }
-            for (other, &column) in later.iter().enumerate() {
-                let pair = (first + other) * square;
-                if row == column {
-                    let place = (row - position - 1) * square;
-                    let right = &system.upper[pair..pair + square];
-                    subtract_product(&left, right, m, m, &mut after[place..place + square]);
-                    continue;
-                }
-                let right = system.upper[pair..pair + square].to_vec();
-                let (store, target) = if row < column {
-                    (&mut system.upper, system.pattern.pair(row, column))
-                } else {
-                    (&mut system.lower, system.pattern.pair(column, row))
-                };
-                let target = &mut store[target * square..(target + 1) * square];
-                subtract_product(&left, &right, m, m, target);
-            }
+            let place = (row - position - 1) * square;
+            subtract_product::<M>(left, right, m, m, &mut after[place..place + square]);
+        }
+        let joined = later.iter().enumerate();
+        let others = joined.clone().flat_map(|one| joined.clone().map(move |other| (one, other)));
+        for ((at, &row), (other, &column)) in others.filter(|(one, other)| one.0 != other.0) {
+            let block = |at: usize| (first + at) * square..(first + at + 1) * square;
+            let (left, right) = (lower[block(at)].to_vec(), upper[block(other)].to_vec());
+            let (store, target) = if row < column {
+                (&mut *upper, pattern.pair(row, column))
+            } else {
+                (&mut *lower, pattern.pair(column, row))
+            };
+            let target = &mut store[target * square..(target + 1) * square];
+            subtract_product::<M>(&left, &right, m, m, target);
         }
         Ok(())
     }
 
     /// Solves for `x` (all unknowns) and `y` (the border), given in them the right-hand sides.
     pub fn solve(&mut self, x: &mut [f64], y: &mut [f64]) {
+        sized(self.order(), Solve(self, x, y));
+    }
+
+    #[inline(always)]
+    fn solve_sized<const M: usize, const R: usize>(&mut self, x: &mut [f64], y: &mut [f64]) {
         let system = &self.system;
-        let (m, k) = (system.size, system.borders);
+        let (m, k) = if M > 0 { (M, 1) } else { (system.size, system.borders) };
         let square = m * m;
         let last = system.pattern.nodes() - 1;
         for position in 0..last {
@@ -324,23 +377,23 @@ impl Factors {
             let lu = &system.diagonal[position * square..(position + 1) * square];
             let own = &mut self.scratch[..m];
             own.copy_from_slice(&x[node..node + m]);
-            solve(lu, m, &self.pivots[position * m..(position + 1) * m], own, 1);
+            solve::<M>(lu, m, &self.pivots[position * m..(position + 1) * m], own, 1);
             x[node..node + m].copy_from_slice(own);
             let first = system.pattern.first(position);
             for (at, &row) in system.pattern.later(position).iter().enumerate() {
                 let pair = (first + at) * square;
                 let target = system.pattern.node(row) * m;
                 let block = &system.lower[pair..pair + square];
-                subtract_product(block, own, m, 1, &mut x[target..target + m]);
+                subtract_product::<M>(block, own, m, 1, &mut x[target..target + m]);
             }
             let rows = &system.rows[position * m * k..(position + 1) * m * k];
-            subtract_product(rows, own, m, 1, y);
+            subtract_product::<M>(rows, own, m, 1, y);
         }
         let node = system.pattern.node(last) * m;
         let root = &mut self.scratch[..m + k];
         root[..m].copy_from_slice(&x[node..node + m]);
         root[m..].copy_from_slice(y);
-        solve(&self.root, m + k, &self.root_pivots, root, 1);
+        solve::<R>(&self.root, m + k, &self.root_pivots, root, 1);
         x[node..node + m].copy_from_slice(&root[..m]);
         y.copy_from_slice(&root[m..]);
         for position in (0..last).rev() {
@@ -351,11 +404,17 @@ impl Factors {
             for (at, &column) in system.pattern.later(position).iter().enumerate() {
                 let pair = (first + at) * square;
                 let from = system.pattern.node(column) * m;
-                subtract_product(&system.upper[pair..pair + square], &x[from..from + m], m, 1, own);
+                subtract_product::<M>(
+                    &system.upper[pair..pair + square],
+                    &x[from..from + m],
+                    m,
+                    1,
+                    own,
+                );
             }
             if k > 0 {
                 let columns = &system.columns[position * m * k..(position + 1) * m * k];
-                subtract_product(columns, y, k, 1, own);
+                subtract_product::<0>(columns, y, k, 1, own);
             }
             x[node..node + m].copy_from_slice(own);
         }

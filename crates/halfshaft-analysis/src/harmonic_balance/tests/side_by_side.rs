@@ -24,8 +24,7 @@ fn both(text: &str, set: &HarmonicSet, count: usize) -> Vec<(Vec<Complex>, Vec<C
     let motions: Vec<_> = (0..count).map(motion).collect();
     let speed = |k: usize| 0.8 + 0.13 * k as f64;
     let orbit = |(k, twists)| Orbit { set, speed: speed(k), twists };
-    let orbits: Vec<Orbit<'_>> =
-        motions.iter().map(Vec::as_slice).enumerate().map(orbit).collect();
+    let orbits: Vec<Orbit<'_>> = motions.iter().map(Vec::as_slice).enumerate().map(orbit).collect();
     let all = variational.multipliers_of_all(&line.equations, &orbits).expect("a small line");
     let one = |orbit| variational.multipliers(&line.equations, orbit).expect("found");
     all.into_iter().zip(orbits.iter().map(one)).collect()
