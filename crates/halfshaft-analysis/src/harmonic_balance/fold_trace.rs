@@ -8,6 +8,7 @@ use halfshaft_results::SpecialKind;
 
 use super::fold_points::{b_span, dot, inner, is_near, norm, returns, reversed, sides};
 use super::fold_system::{FoldSample, FoldSystem};
+use super::predictor::{PREDICTED_FROM, Waypoint, bend};
 use super::problem::Failure;
 use super::tracer::{Counted, MOST_HARMONICS, length, refit};
 
@@ -67,6 +68,37 @@ fn unit(x: &[f64]) -> Vec<f64> {
     x.iter().map(|x| x / size).collect()
 }
 
+/// Where a step along a direction from the latest of the recent samples is expected to end, `straight`
+/// where nothing more is known.
+fn predicted(
+    recent: &[&FoldSample],
+    straight: &Point,
+    along: &Point,
+    spans: [f64; 3],
+    step: f64,
+) -> Point {
+    let Some(set) = recent.first().map(|last| &last.set) else { return straight.clone() };
+    let whole = |from: &HarmonicSet, (u, frequency, parameter): (&[f64], f64, f64)| {
+        let mut whole = refit(from, set, 1, u);
+        whole.extend([frequency, parameter]);
+        whole
+    };
+    let waypoint = |sample: &&FoldSample| Waypoint {
+        place: whole(&sample.set, (&sample.u, sample.frequency, sample.parameter)),
+        direction: whole(&sample.set, (&sample.tangent.0, sample.tangent.1, sample.tangent.2)),
+    };
+    let list: Vec<Waypoint> = recent.iter().map(waypoint).collect();
+    let along = whole(set, (&along.0, along.1, along.2));
+    let mut point = whole(set, (&straight.0, straight.1, straight.2));
+    let m = along.len() - 2;
+    let dot =
+        |a: &[f64], b: &[f64]| inner((&a[..m], a[m], a[m + 1]), (&b[..m], b[m], b[m + 1]), spans);
+    bend(&list, &dot, step, &along, &mut point);
+    let (frequency, parameter) = (point[m], point[m + 1]);
+    point.truncate(m);
+    (point, frequency, parameter)
+}
+
 impl FoldTracer<'_, '_> {
     fn spans(&self, u: &[f64]) -> [f64; 3] {
         let (a, b) = (self.settings.frequency, self.settings.parameter);
@@ -116,11 +148,9 @@ impl FoldTracer<'_, '_> {
         let mut samples = vec![first];
         let mut step = 0.01;
         while samples.len() < MOST_SAMPLES && !self.observer.cancelled() {
+            let recent: Vec<&FoldSample> = samples.iter().rev().take(PREDICTED_FROM).collect();
+            let Ok(next) = self.step(&recent, &mut step) else { break };
             let Some(last) = samples.last() else { break };
-            let next = match self.step(last, &mut step) {
-                Ok(next) => next,
-                Err(_) => break,
-            };
             let outside = self.outside(&next);
             if outside {
                 if let Some(end) = self.border(last, &next) {
@@ -144,10 +174,10 @@ impl FoldTracer<'_, '_> {
             || beyond(self.settings.parameter, sample.parameter)
     }
 
-    fn step(&mut self, last: &FoldSample, step: &mut f64) -> Result<FoldSample, Failure> {
+    fn step(&mut self, recent: &[&FoldSample], step: &mut f64) -> Result<FoldSample, Failure> {
         loop {
             self.counted.steps += 1;
-            match self.try_step(last, *step) {
+            match self.try_step(recent, *step) {
                 Ok((next, miss)) => {
                     let factor = (MISS / miss.max(1e-12)).sqrt().clamp(0.3, 1.8);
                     let too_far = miss > 8.0 * MISS && *step > 1e3 * SHORTEST;
@@ -166,7 +196,12 @@ impl FoldTracer<'_, '_> {
         }
     }
 
-    fn try_step(&mut self, last: &FoldSample, step: f64) -> Result<(FoldSample, f64), Failure> {
+    fn try_step(
+        &mut self,
+        recent: &[&FoldSample],
+        step: f64,
+    ) -> Result<(FoldSample, f64), Failure> {
+        let Some(last) = recent.first() else { return Err(Failure::NotConverged) };
         let mut set = last.set.clone();
         self.use_set(&set);
         let spans = self.spans(&last.u);
@@ -184,7 +219,7 @@ impl FoldTracer<'_, '_> {
         let mut row = weighted((&along.0, along.1, along.2), spans);
         let target = dot(&row, &straight);
         let mut borders = (unit(&last.w), unit(&last.v));
-        let mut point = straight.clone();
+        let mut point = predicted(recent, &straight, &along, spans, step);
         let r = (row.0.as_slice(), row.1, row.2);
         self.counted.iterations +=
             self.system.correct(&mut point, (&borders.0, &borders.1), r, target, spans)?;

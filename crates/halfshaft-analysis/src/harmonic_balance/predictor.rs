@@ -1,89 +1,152 @@
-//! Where the next sample of a curve is expected: beyond the tangent, from the last two samples.
-
-use std::borrow::Cow;
-
-use halfshaft_numerics::harmonics::HarmonicSet;
-
-use super::problem::Metric;
-use super::tracer::{Sample, refit};
+//! Where the next sample of a curve is expected: beyond the tangent, from the last two or three samples.
+//!
+//! Newton's method then needs one step where it would need two from the tangent.
 
 /// Directions of neighbours that differ by more than this cosine are not fitted together.
 const LEAST_TURN: f64 = 0.5;
-/// Steps longer than so many times the last are not extrapolated.
+/// Steps longer than so many times the way to a sample are not extrapolated from it.
 const LONGEST: f64 = 3.0;
+/// Samples from which the next is predicted.
+pub(super) const PREDICTED_FROM: usize = 3;
 
-/// Adds to a prediction along the tangent the square and the cube of the step, from the polynomial
-/// through the last two samples that has the tangents of both. Its variable is the way along the last
-/// tangent, by which the next sample is found.
-pub(super) fn bend(
-    (last, before): (&Sample, &Sample),
-    set: &HarmonicSet,
-    metric: &Metric,
-    step: f64,
-    (along, along_p): (&[f64], f64),
-    (u, p): (&mut [f64], &mut f64),
-) {
-    let here = fitted(&last.set, set, &last.u);
-    let there = fitted(&before.set, set, &before.u);
-    let back: Vec<f64> = there.iter().zip(&*here).map(|(a, b)| a - b).collect();
-    let back_p = before.p - last.p;
-    // before = last - d t + d² a - d³ b, with the slope t - 2 d a + 3 d² b.
-    let d = -metric.dot((&back, back_p), (along, along_p));
-    if d <= 0.0 || step > LONGEST * d {
-        return;
-    }
-    let slope = fitted(&before.set, set, &before.tangent);
-    let turn = metric.dot((&slope, before.tangent_p), (along, along_p));
-    let length = metric.norm(&slope, before.tangent_p);
-    let fits = turn > LEAST_TURN * length;
-    let (square, cube) = ((step / d).powi(2), (step / d).powi(3));
-    let predicted = |back: f64, along: f64, slope: f64| {
-        let chord = back + d * along;
-        if !fits {
-            return square * chord;
-        }
-        let slopes = 0.5 * d * (along - slope / turn);
-        square * (3.0 * chord - 2.0 * slopes) + cube * 2.0 * (chord - slopes)
-    };
-    for (((u, back), along), slope) in u.iter_mut().zip(&back).zip(along).zip(&*slope) {
-        *u += predicted(*back, *along, *slope);
-    }
-    *p += predicted(back_p, along_p, before.tangent_p);
+/// A sample of a curve: its coordinates, and its direction of any length.
+pub(super) struct Waypoint {
+    pub(super) place: Vec<f64>,
+    pub(super) direction: Vec<f64>,
 }
 
-/// Coefficients over another set of harmonics; the same ones where the set is the same.
-fn fitted<'u>(from: &HarmonicSet, to: &HarmonicSet, u: &'u [f64]) -> Cow<'u, [f64]> {
-    if from == to { Cow::Borrowed(u) } else { Cow::Owned(refit(from, to, 1, u)) }
+/// Moves a prediction along the tangent `along` (of unit length under `dot`) to the polynomial through the
+/// last samples, the latest first, that has the directions of all: of third degree for two, of fifth for
+/// three. Its variable is the way along the tangent, by which the next sample is found.
+pub(super) fn bend(
+    recent: &[Waypoint],
+    dot: &dyn Fn(&[f64], &[f64]) -> f64,
+    step: f64,
+    along: &[f64],
+    point: &mut [f64],
+) {
+    let Some((last, earlier)) = recent.split_first() else { return };
+    let mut known: Vec<Known<'_>> = Vec::with_capacity(earlier.len());
+    for waypoint in earlier {
+        let place = Known::new(last, waypoint, dot, along);
+        // In order, and near enough to tell what comes.
+        let nearest = known.last().map_or(0.0, |known| known.way);
+        if !(place.way < nearest) || step > -LONGEST * place.way {
+            break;
+        }
+        known.push(place);
+    }
+    let fitting = known.iter().take_while(|known| known.turn.is_some()).count();
+    if let (Some(before), 0) = (known.first(), fitting) {
+        // Directions too far apart: the chord alone.
+        let square = (step / before.way).powi(2);
+        for ((x, back), along) in point.iter_mut().zip(&before.back).zip(along) {
+            *x += square * (back - before.way * along);
+        }
+        return;
+    }
+    known.truncate(fitting);
+    let ways: Vec<f64> = std::iter::once(0.0).chain(known.iter().map(|k| k.way)).collect();
+    let weights = hermite(&ways, step);
+    // The latest sample's direction, of which the prediction has a share already.
+    let own = weights[0].1 - step;
+    point.iter_mut().zip(along).for_each(|(x, along)| *x += own * along);
+    for (place, (value, slope)) in known.iter().zip(&weights[1..]) {
+        let slope = slope / place.turn.unwrap_or(1.0);
+        for ((x, back), direction) in point.iter_mut().zip(&place.back).zip(place.direction) {
+            *x += value * back + slope * direction;
+        }
+    }
+}
+
+/// An earlier sample as the latest sees it.
+struct Known<'w> {
+    /// Way along the last tangent, negative behind the latest.
+    way: f64,
+    /// From the latest sample to it.
+    back: Vec<f64>,
+    direction: &'w [f64],
+    /// Share of its direction in the last tangent; `None` where they point apart.
+    turn: Option<f64>,
+}
+
+impl<'w> Known<'w> {
+    fn new(
+        last: &Waypoint,
+        waypoint: &'w Waypoint,
+        dot: &dyn Fn(&[f64], &[f64]) -> f64,
+        along: &[f64],
+    ) -> Self {
+        let back: Vec<f64> = waypoint.place.iter().zip(&last.place).map(|(a, b)| a - b).collect();
+        let direction = &waypoint.direction[..];
+        let turn = dot(direction, along);
+        let fits = turn > LEAST_TURN * dot(direction, direction).sqrt();
+        Self { way: dot(&back, along), back, direction, turn: fits.then_some(turn) }
+    }
+}
+
+/// Weights of values and slopes at the nodes in the Hermite polynomial through them at `s`.
+fn hermite(nodes: &[f64], s: f64) -> Vec<(f64, f64)> {
+    let of = |(at, node): (usize, &f64)| {
+        let others = || nodes.iter().enumerate().filter(move |(other, _)| *other != at);
+        let basis: f64 = others().map(|(_, other)| (s - other) / (node - other)).product();
+        let slope: f64 = others().map(|(_, other)| 1.0 / (node - other)).sum();
+        let away = s - node;
+        ((1.0 - 2.0 * away * slope) * basis * basis, away * basis * basis)
+    };
+    nodes.iter().enumerate().map(of).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    // Source: a cubic curve, which is predicted exactly.
+    // Source: curves of third and fifth degree, which are predicted exactly from two and three samples.
     #[test]
-    fn cubic_curves_are_predicted_exactly() {
-        let set = HarmonicSet::odd(1);
-        let curve = |s: f64| [0.3 * s * s - 0.1 * s * s * s, 1.0 + 0.2 * s * s * s];
-        let slope = |s: f64| [0.6 * s - 0.3 * s * s, 0.6 * s * s];
-        let sample = |s: f64, scale: f64| Sample {
-            set: set.clone(),
-            u: curve(s).to_vec(),
-            p: s,
-            tangent: slope(s).iter().map(|x| scale * x).collect(),
-            tangent_p: scale,
-            metric: (1.0, 1.0),
-            orientation: 1.0,
-            truncation: 0.0,
+    fn polynomials_are_predicted_exactly() {
+        for (count, fifth) in [(2, 0.0), (3, 0.4)] {
+            let more = |s: f64| fifth * s.powi(5) - 2.0 * fifth * s.powi(4);
+            let curve = |s: f64| vec![0.3 * s * s - 0.1 * s.powi(3) + more(s), 0.2 * s.powi(3), s];
+            let slope = |s: f64| {
+                let more = 5.0 * fifth * s.powi(4) - 8.0 * fifth * s.powi(3);
+                [0.6 * s - 0.3 * s * s + more, 0.6 * s * s, 1.0]
+            };
+            let waypoint = |(s, scale): (f64, f64)| Waypoint {
+                place: curve(s),
+                direction: slope(s).iter().map(|x| scale * x).collect(),
+            };
+            let list = [(0.0, 1.0), (-0.3, 0.7), (-0.5, 0.9)];
+            let list: Vec<Waypoint> = list.into_iter().take(count).map(waypoint).collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            // The last tangent is along the third coordinate, so that the way along it is that.
+            let (step, mut point) = (0.4, vec![0.0, 0.0, 0.4]);
+            bend(&list, &dot, step, &[0.0, 0.0, 1.0], &mut point);
+            for (x, exact) in point.iter().zip(curve(step)) {
+                assert!((x - exact).abs() < 1e-14, "{point:?}");
+            }
+        }
+    }
+
+    // Source: by hand. One sample tells no more than its tangent, one that points away only its place.
+    #[test]
+    fn what_does_not_fit_is_left_out() {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let waypoint = |place: [f64; 2], direction: [f64; 2]| Waypoint {
+            place: place.to_vec(),
+            direction: direction.to_vec(),
         };
-        let metric = Metric { size: 1.0, span: 1.0 };
-        // The last tangent is along the parameter, so that the way along it is the parameter.
-        let (last, before) = (sample(0.0, 1.0), sample(-0.3, 0.7));
-        let step = 0.4;
-        let (mut u, mut p) = (vec![0.0, 1.0], step);
-        bend((&last, &before), &set, &metric, step, (&[0.0, 0.0], 1.0), (&mut u, &mut p));
-        let exact = curve(step);
-        assert!((u[0] - exact[0]).abs() < 1e-15 && (u[1] - exact[1]).abs() < 1e-15, "{u:?}");
-        assert!((p - step).abs() < 1e-15);
+        let along = [1.0, 0.0];
+        let ahead = |list: &[Waypoint]| {
+            let mut point = vec![0.5, 0.0];
+            bend(list, &dot, 0.5, &along, &mut point);
+            point
+        };
+        let last = || waypoint([0.0, 0.0], [1.0, 0.0]);
+        assert_eq!(ahead(&[last()]), [0.5, 0.0]);
+        assert_eq!(ahead(&[last(), waypoint([0.2, 0.1], [1.0, 0.0])]), [0.5, 0.0]);
+        let apart = waypoint([-0.5, 0.3], [0.0, 1.0]);
+        assert_eq!(ahead(&[last(), apart]), [0.5, 0.3]);
+        // Too near to tell what comes.
+        assert_eq!(ahead(&[last(), waypoint([-0.1, 0.3], [1.0, 0.0])]), [0.5, 0.0]);
     }
 }

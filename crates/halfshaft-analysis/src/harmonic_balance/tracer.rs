@@ -13,7 +13,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
 use super::closing::comes_back;
-use super::predictor::bend;
+use super::predictor::{PREDICTED_FROM, Waypoint, bend};
 use super::problem::{Condition, Corrected, Failure, Metric, Problem};
 
 /// A response on a branch.
@@ -308,11 +308,10 @@ impl<'t, 'f> Tracer<'t, 'f> {
         step: &mut f64,
         set: &mut HarmonicSet,
     ) -> Result<Sample, Failure> {
-        let Some(last) = samples.last() else { return Err(Failure::NotConverged) };
-        let before = samples.len().checked_sub(2).map(|at| &samples[at]);
+        let recent: Vec<&Sample> = samples.iter().rev().take(PREDICTED_FROM).collect();
         loop {
             self.counted.steps += 1;
-            match self.try_step(last, before, *step, set) {
+            match self.try_step(&recent, *step, set) {
                 Ok((next, miss)) => {
                     // The tangent misses by the square of the step.
                     let factor = (self.settings.miss / miss.max(1e-12)).sqrt().clamp(0.3, 1.8);
@@ -333,14 +332,14 @@ impl<'t, 'f> Tracer<'t, 'f> {
         }
     }
 
-    /// One step of the given length; also how far the tangent alone misses.
+    /// One step of the given length from the latest of the recent samples; also how far the tangent alone misses.
     fn try_step(
         &mut self,
-        last: &Sample,
-        before: Option<&Sample>,
+        recent: &[&Sample],
         step: f64,
         set: &mut HarmonicSet,
     ) -> Result<(Sample, f64), Failure> {
+        let Some(last) = recent.first() else { return Err(Failure::NotConverged) };
         self.choose(set);
         let from = refit(&last.set, set, 1, &last.u);
         let metric = self.metric(&from);
@@ -352,10 +351,7 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let mut straight = from;
         straight.iter_mut().zip(&along).for_each(|(u, t)| *u += step * t);
         let straight_p = last.p + step * along_p;
-        let (mut u, mut p) = (straight.clone(), straight_p);
-        if let Some(before) = before {
-            bend((last, before), set, &metric, step, (&along, along_p), (&mut u, &mut p));
-        }
+        let (mut u, mut p) = predicted(recent, set, &metric, step, (&along, along_p));
         let weights: Vec<f64> = along.iter().map(|x| x / (metric.size * metric.size)).collect();
         let corner = along_p / (metric.span * metric.span);
         let target = |weights: &[f64], at: &[f64], at_p: f64| {
@@ -405,6 +401,34 @@ impl<'t, 'f> Tracer<'t, 'f> {
     }
 }
 
+/// Where a step along a direction is expected to end.
+fn predicted(
+    recent: &[&Sample],
+    set: &HarmonicSet,
+    metric: &Metric,
+    step: f64,
+    (along, along_p): (&[f64], f64),
+) -> (Vec<f64>, f64) {
+    let whole = |from: &HarmonicSet, u: &[f64], p: f64| {
+        let mut whole = refit(from, set, 1, u);
+        whole.push(p);
+        whole
+    };
+    let waypoint = |sample: &&Sample| Waypoint {
+        place: whole(&sample.set, &sample.u, sample.p),
+        direction: whole(&sample.set, &sample.tangent, sample.tangent_p),
+    };
+    let list: Vec<Waypoint> = recent.iter().map(waypoint).collect();
+    let along = whole(set, along, along_p);
+    let Some(last) = list.first() else { return (Vec::new(), f64::NAN) };
+    let mut point: Vec<f64> = last.place.iter().zip(&along).map(|(x, t)| x + step * t).collect();
+    let m = along.len() - 1;
+    let dot = |a: &[f64], b: &[f64]| metric.dot((&a[..m], a[m]), (&b[..m], b[m]));
+    bend(&list, &dot, step, &along, &mut point);
+    let p = point.pop().unwrap_or(f64::NAN);
+    (point, p)
+}
+
 /// The lowest highest order beyond which the coefficients of no node are longer than `rest`.
 fn enough(set: &HarmonicSet, u: &[f64], rest: f64) -> usize {
     let m = set.coefficients();
@@ -425,11 +449,14 @@ fn enough(set: &HarmonicSet, u: &[f64], rest: f64) -> usize {
 
 /// Coefficients of all nodes over another set of harmonics.
 pub(super) fn refit(from: &HarmonicSet, to: &HarmonicSet, factor: usize, u: &[f64]) -> Vec<f64> {
-    if from == to && factor == 1 {
-        return u.to_vec();
-    }
     let (m, n) = (from.coefficients(), to.coefficients());
-    let mut out = vec![0.0; u.len() / m * n];
+    // Room for one more: a running parameter is often put behind.
+    let mut out = Vec::with_capacity(u.len() / m * n + 1);
+    if from == to && factor == 1 {
+        out.extend_from_slice(u);
+        return out;
+    }
+    out.resize(u.len() / m * n, 0.0);
     for (source, target) in u.chunks_exact(m).zip(out.chunks_exact_mut(n)) {
         to.take(from, factor, source, target);
     }

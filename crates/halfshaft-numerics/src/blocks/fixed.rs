@@ -52,21 +52,26 @@ pub(super) fn solve<const N: usize, const C: usize>(lu: &[f64], r: &mut [f64]) {
     }
 }
 
-/// The same for one right-hand side.
+/// The same for one right-hand side, column by column: a row at a time each sum would wait for the
+/// one before.
 #[inline(always)]
 pub(super) fn solve_one<const N: usize>(lu: &[f64], r: &mut [f64]) {
     let lu = lu.as_chunks::<N>().0;
     let Some(r) = r.first_chunk_mut::<N>() else { return };
-    let mut known = [0.0; N];
-    for row in 0..N {
-        known[row] = r[row] - dot(&lu[row], &known);
+    let inverse: [f64; N] = std::array::from_fn(|k| 1.0 / lu[k][k]);
+    for k in 0..N {
+        let known = r[k];
+        for row in k + 1..N {
+            r[row] -= lu[row][k] * known;
+        }
     }
-    *r = known;
-    known = [0.0; N];
-    for row in (0..N).rev() {
-        known[row] = (r[row] - dot(&lu[row], &known)) / lu[row][row];
+    for k in (0..N).rev() {
+        let known = r[k] * inverse[k];
+        r[k] = known;
+        for row in 0..k {
+            r[row] -= lu[row][k] * known;
+        }
     }
-    *r = known;
 }
 
 /// `out -= A B` with `A` of rows of `N` and `B` `N` by `C`.
