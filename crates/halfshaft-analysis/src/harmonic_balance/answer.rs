@@ -20,7 +20,7 @@ use super::range::default_range;
 use super::seeds::{Seed, drive_curve};
 use super::system::Place;
 use super::tips::tips;
-use super::tracer::{Counted, LONGEST, MISS, TraceSettings, length};
+use super::tracer::{Counted, FIRST, LONGEST, MISS, TraceSettings, length};
 use crate::equilibrium;
 use crate::error::AnalysisError;
 use crate::header::header;
@@ -146,6 +146,7 @@ impl Setting {
             tolerance,
             harmonics,
             miss: MISS,
+            first: FIRST,
             longest: LONGEST,
             most_samples: 4000,
             most_size: 1e9,

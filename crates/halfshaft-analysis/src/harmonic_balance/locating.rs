@@ -50,6 +50,22 @@ impl Test<'_> {
     fn is_directed(&self) -> bool {
         matches!(self, Self::Fold | Self::Orientation)
     }
+
+    /// Its values at two samples, given their stability.
+    fn at_ends(
+        &self,
+        (from, to): (&Sample, &Sample),
+        stability: Option<(&Stability, &Stability)>,
+    ) -> Option<(f64, f64)> {
+        match self {
+            Self::Fold => Some((from.tangent_p, to.tangent_p)),
+            Self::Orientation => Some((from.orientation, to.orientation)),
+            Self::Value(value) => Some((value(from), value(to))),
+            Self::Crossing(crossing) => {
+                stability.map(|(before, after)| (test(before, *crossing), test(after, *crossing)))
+            }
+        }
+    }
 }
 
 /// What is known of a test when its zero is closed in on.
@@ -134,7 +150,7 @@ impl Tracer<'_, '_> {
     }
 
     /// Closes in on a zero of a test between two samples over one set of harmonics, to a part of the
-    /// segment.
+    /// segment; `known` are the values at the ends of the bracket, if they are.
     fn close_in(
         &mut self,
         judge: &mut Judge,
@@ -142,7 +158,12 @@ impl Tracer<'_, '_> {
         segment: &Segment,
         bracket: (f64, f64),
         close: f64,
+        known: Option<(f64, f64)>,
     ) -> Option<Zero> {
+        if let Some((at_low, at_high)) = known.filter(|(a, b)| a * b <= 0.0) {
+            let seen = vec![(bracket.0, at_low), (bracket.1, at_high)];
+            return self.root(judge, what, segment, bracket, Known { seen, near: None, close });
+        }
         let mut seen: Vec<(f64, f64)> = Vec::new();
         let mut at = |tracer: &mut Self, judge: &mut Judge, part: f64| {
             let sample = tracer.between(segment, part, None).ok()?;
@@ -290,12 +311,14 @@ impl Tracer<'_, '_> {
         judge: &mut Judge,
         what: &Test<'_>,
         pair: (&Sample, &Sample),
+        stability: Option<(&Stability, &Stability)>,
     ) -> Option<(Sample, f64)> {
         let highest = pair.0.set.highest().max(pair.1.set.highest());
         let mut segment = Segment::new(self, pair, &pair.0.set.up_to(highest));
         let more = self.settings.harmonics.is_none() && !self.shoots();
         let close = if more && !matches!(what, Test::Orientation) { CLOSE } else { CLOSED_IN };
-        let mut zero = self.close_in(judge, what, &segment, (0.0, 1.0), close)?;
+        let known = what.at_ends(pair, stability).filter(|_| pair.0.set == pair.1.set);
+        let mut zero = self.close_in(judge, what, &segment, (0.0, 1.0), close, known)?;
         if self.settings.harmonics.is_some() {
             return Some((zero.sample, CLOSED_IN));
         }
@@ -317,7 +340,7 @@ impl Tracer<'_, '_> {
             let Some(found) = found else {
                 if round == 0 && close > CLOSED_IN {
                     // Over these harmonics then, and to the end.
-                    zero = self.close_in(judge, what, &segment, (0.0, 1.0), CLOSED_IN)?;
+                    zero = self.close_in(judge, what, &segment, (0.0, 1.0), CLOSED_IN, known)?;
                 }
                 break;
             };
@@ -349,7 +372,7 @@ impl Tracer<'_, '_> {
         let mut width: f64 = if round == 0 { 1e-2 } else { 1e-3 };
         loop {
             let bracket = ((zero.part - width).max(-0.5), (zero.part + width).min(1.5));
-            match self.close_in(judge, what, segment, bracket, CLOSED_IN) {
+            match self.close_in(judge, what, segment, bracket, CLOSED_IN, None) {
                 Some(found) => return Some(found),
                 None if width < 0.5 => width *= 5.0,
                 None => return None,

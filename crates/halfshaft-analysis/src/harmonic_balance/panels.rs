@@ -7,7 +7,7 @@ use halfshaft_numerics::dense::Matrix;
 
 use super::lanes::Rows;
 use super::series::{MOST, Series, Truncation};
-use super::structure::{Structure, sums};
+use super::structure::{Structure, sum, sums, times};
 
 /// Tangent stiffness and damping of one connection over a step.
 #[derive(Clone)]
@@ -20,6 +20,9 @@ pub(super) struct Tangent {
 
 /// Coefficients of a row.
 pub(super) const TERMS: usize = MOST + 1;
+
+/// Powers of time that are summed at once.
+const TOGETHER: usize = 4;
 
 /// Columns of the variational equation at one time.
 pub(super) struct Panels<const W: usize> {
@@ -88,7 +91,7 @@ impl<const W: usize> Panels<W> {
             state,
             coordinates: Rows::zeros(TERMS * count),
             twists: Rows::zeros(TERMS * structure.connections().len()),
-            net: Rows::zeros(count + structure.connections().len()),
+            net: Rows::zeros(count),
             arch: pulp::Arch::new(),
             columns,
             count,
@@ -160,44 +163,80 @@ impl<const W: usize> Panels<W> {
     fn reach(&self) -> f64 {
         let scale = self.size(0).max(self.size(1) / self.speed);
         let degree = self.truncation.degree;
-        let [last, before] = [degree, degree - 1].map(|power| match self.size(power) {
+        // One after the other: a closure would not be compiled with the instructions at hand.
+        let last = self.longest(scale, degree);
+        last.min(self.longest(scale, degree - 1))
+    }
+
+    /// The step after which the term of a power is rounding beside `scale`.
+    #[inline(always)]
+    fn longest(&self, scale: f64, power: usize) -> f64 {
+        match self.size(power) {
             0.0 => f64::INFINITY,
             size => (self.truncation.rounding * scale / size).powf(1.0 / power as f64),
-        });
-        last.min(before)
+        }
     }
 
     /// The largest of all coefficients of a power.
     #[inline(always)]
     fn size(&self, power: usize) -> f64 {
-        let mut most = [0.0_f64; W];
-        for row in &self.coordinates[power * self.count..(power + 1) * self.count] {
-            for lane in 0..W {
-                let value = row[lane].abs();
-                most[lane] = if value > most[lane] { value } else { most[lane] };
-            }
+        let rows = &self.coordinates[power * self.count..(power + 1) * self.count];
+        // Sizes are in the order of their bits, the maximum of which takes whole registers.
+        let mut most = 0_i64;
+        for value in rows.as_flattened() {
+            let bits = value.abs().to_bits().cast_signed();
+            most = if bits > most { bits } else { most };
         }
-        most.into_iter().fold(0.0, f64::max)
+        f64::from_bits(most.cast_unsigned())
     }
 
     /// Writes coordinates and rates after `step` to the next state.
     #[inline(always)]
     fn advance<const FUSED: bool>(&mut self, panel: usize, step: f64) {
+        let size = self.count * W;
+        if W < 8 {
+            return self.advance_few::<FUSED>(panel, step);
+        }
+        let next = &mut self.next.as_flattened_mut()[2 * panel * size..2 * (panel + 1) * size];
+        let (values, slopes) = next.split_at_mut(size);
+        values.fill(0.0);
+        slopes.fill(0.0);
+        let terms = &self.coordinates.as_flattened()[..(self.truncation.degree + 1) * size];
+        let (starts, later) = terms.split_at(2 * size);
+        // q = q0 + q1 t + t² v(t): value and slope of v by Horner's rule.
+        for terms in later.rchunks(TOGETHER * size) {
+            if let Some(four) = split(terms, size) {
+                horner_of_four::<FUSED>(step, values, slopes, four);
+            } else {
+                terms.rchunks(size).for_each(|row| horner::<FUSED>(step, values, slopes, row));
+            }
+        }
+        let starts = starts[..size].iter().zip(&starts[size..]);
+        for ((value, slope), (start, rate)) in values.iter_mut().zip(slopes).zip(starts) {
+            let double = sum::<FUSED>(step, *slope, 2.0 * *value);
+            *slope = sum::<FUSED>(step, double, *rate);
+            *value = sum::<FUSED>(step, sum::<FUSED>(step, *value, *rate), *start);
+        }
+    }
+
+    /// The same for few columns, coordinate by coordinate.
+    #[inline(always)]
+    fn advance_few<const FUSED: bool>(&mut self, panel: usize, step: f64) {
         let count = self.count;
         let from = 2 * panel * count;
-        let (starts, later) = self.coordinates.split_at(2 * count);
-        let (values, rates) = self.next[from..from + 2 * count].split_at_mut(count);
-        for (at, (out, out_rate)) in values.iter_mut().zip(rates).enumerate() {
-            // q = q0 + q1 t + t² v(t): value and slope of v by Horner's rule.
+        for at in 0..count {
             let (mut value, mut slope) = ([0.0_f64; W], [0.0_f64; W]);
-            for terms in later[..(self.truncation.degree - 1) * count].chunks_exact(count).rev() {
+            let mut place = self.truncation.degree * count + at;
+            while place >= 2 * count {
                 slope = sums::<W, FUSED>(step, &slope, &value);
-                value = sums::<W, FUSED>(step, &value, &terms[at]);
+                value = sums::<W, FUSED>(step, &value, &self.coordinates[place]);
+                place -= count;
             }
-            let (start, rate) = (&starts[at], &starts[count + at]);
-            let twice = value.map(|value| 2.0 * value);
-            *out_rate = sums::<W, FUSED>(step, &sums::<W, FUSED>(step, &slope, &twice), rate);
-            *out = sums::<W, FUSED>(step, &sums::<W, FUSED>(step, &value, rate), start);
+            let (rate, start) = (&self.coordinates[count + at], &self.coordinates[at]);
+            let slope = sums::<W, FUSED>(step, &slope, &times(2.0, &value));
+            self.next[from + count + at] = sums::<W, FUSED>(step, &slope, rate);
+            let value = sums::<W, FUSED>(step, &value, rate);
+            self.next[from + at] = sums::<W, FUSED>(step, &value, start);
         }
     }
 
@@ -217,5 +256,45 @@ impl<const W: usize> Panels<W> {
             }
         }
         matrix
+    }
+}
+
+/// The terms of as many powers as are summed at once, each of `size` numbers; `None` where there are
+/// fewer.
+#[inline(always)]
+fn split(terms: &[f64], size: usize) -> Option<[&[f64]; TOGETHER]> {
+    if terms.len() != TOGETHER * size {
+        return None;
+    }
+    let (low, high) = terms.split_at(2 * size);
+    let ((first, second), (third, fourth)) = (low.split_at(size), high.split_at(size));
+    Some([first, second, third, fourth])
+}
+
+/// A step of Horner's rule down to the next power, for values and their slopes.
+#[inline(always)]
+fn horner<const FUSED: bool>(step: f64, values: &mut [f64], slopes: &mut [f64], terms: &[f64]) {
+    for ((value, slope), term) in values.iter_mut().zip(slopes).zip(terms) {
+        *slope = sum::<FUSED>(step, *slope, *value);
+        *value = sum::<FUSED>(step, *value, *term);
+    }
+}
+
+/// Four such steps, down to the first of the powers.
+#[inline(always)]
+fn horner_of_four<const FUSED: bool>(
+    step: f64,
+    values: &mut [f64],
+    slopes: &mut [f64],
+    [a, b, c, d]: [&[f64]; TOGETHER],
+) {
+    let terms = a.iter().zip(b).zip(c.iter().zip(d));
+    for ((value, slope), ((a, b), (c, d))) in values.iter_mut().zip(slopes).zip(terms) {
+        let (mut v, mut s) = (*value, *slope);
+        for term in [d, c, b, a] {
+            s = sum::<FUSED>(step, s, v);
+            v = sum::<FUSED>(step, v, *term);
+        }
+        (*value, *slope) = (v, s);
     }
 }

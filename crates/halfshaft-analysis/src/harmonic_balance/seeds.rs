@@ -34,6 +34,8 @@ const LAST_DRIVE: f64 = 20.0;
 /// nodes more than ten.
 const MOST_SAMPLES: usize = 300;
 const LEAST_MOST_SAMPLES: usize = 60;
+/// Longest step over the drive, relative to the response.
+const LONGEST: f64 = 3.0;
 /// Miss of the tangent on these rough curves.
 const ROUGH: f64 = 0.15;
 
@@ -96,7 +98,9 @@ pub(super) fn drive_curve(
         tolerance: 1.0,
         harmonics: Some(set.highest()),
         miss: ROUGH,
-        longest: 1.0,
+        // Weak responses grow with the drive: nothing bends there.
+        first: LONGEST,
+        longest: LONGEST,
         most_samples: (10 * MOST_SAMPLES / line.nodes().max(10)).max(LEAST_MOST_SAMPLES)
             * work_of(set).ceil() as usize,
         most_size: f64::INFINITY,

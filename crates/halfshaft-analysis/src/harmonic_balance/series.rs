@@ -107,7 +107,7 @@ impl Waves {
 }
 
 /// `1 / k`.
-const INVERSE: [f64; MOST + 2] = {
+pub(super) const INVERSE: [f64; MOST + 2] = {
     let mut list = [0.0; MOST + 2];
     let mut k = 1;
     while k < list.len() {

@@ -63,7 +63,8 @@ impl Tracer<'_, '_> {
             if pair[0].tangent_p * pair[1].tangent_p >= 0.0 {
                 continue;
             }
-            let Some((sample, precision)) = self.locate(judge, &Test::Fold, (&pair[0], &pair[1]))
+            let Some((sample, precision)) =
+                self.locate(judge, &Test::Fold, (&pair[0], &pair[1]), None)
             else {
                 continue;
             };
@@ -123,7 +124,7 @@ impl Tracer<'_, '_> {
             specials[0].change = Some(change);
         }
         for (kind, what) in wanted {
-            let place = self.locate(judge, &what, (from, to));
+            let place = self.locate(judge, &what, (from, to), Some((before, behind)));
             if place.is_none()
                 && let Test::Crossing(crossing) = what
                 && may_be_a_meeting(before, behind, crossing)
@@ -174,7 +175,7 @@ impl Tracer<'_, '_> {
         let mut specials = Vec::new();
         for touch in touched {
             let beyond = |sample: &Sample| touch.beyond(&line, sample);
-            let place = self.locate(judge, &Test::Value(&beyond), (from, to));
+            let place = self.locate(judge, &Test::Value(&beyond), (from, to), None);
             let Some((sample, precision)) = place else { continue };
             let stability = self.judge(judge, &sample).ok();
             specials.push(Special {

@@ -4,6 +4,9 @@ use halfshaft_dynamics::EquationsOfMotion;
 
 use super::panels::Tangent;
 
+/// Powers of time of which the springs are one pass over the twists.
+pub(super) const BLOCK: usize = 4;
+
 /// Coordinates of the variational equation, and its recurrence in them.
 pub(super) trait Structure {
     /// Number of coordinates.
@@ -20,7 +23,8 @@ pub(super) trait Structure {
     fn start(&self, speed: f64, set: &mut dyn FnMut(usize, usize, &[f64]));
 
     /// All coefficients (power, coordinate) to power `degree` from those of powers 0 and 1. `twists`
-    /// (connection, power) and `net` (a row for each coordinate, then for each connection) are stores. `FUSED` where the processor multiplies and adds in one.
+    /// (connection, power) and `net` (a row for each coordinate) are stores. `FUSED` where the processor
+    /// multiplies and adds in one.
     fn recur<const W: usize, const FUSED: bool>(
         &self,
         tangents: &[Tangent],
@@ -55,22 +59,49 @@ pub(super) fn torque<const W: usize, const FUSED: bool>(
     torque
 }
 
-/// What the spring of a connection adds to its torque at a power of time, and at the next.
+/// What the spring of a connection does by the twists known up to the newest, which is the one after
+/// those of `known`: at the power of time before that, and at those that follow. One pass for all of
+/// them over the twists.
 #[inline(always)]
 pub(super) fn springs<const W: usize, const FUSED: bool>(
     tangent: &Tangent,
-    twist: &[[f64; W]],
-    power: usize,
-) -> ([f64; W], [f64; W]) {
-    let terms = tangent.stiffness_terms.min(power + 1);
-    let mut now = [0.0_f64; W];
-    let mut next = twist[power + 1].map(|x| tangent.stiffness[0] * x);
-    let factors = tangent.stiffness[..=terms].windows(2);
-    for (k, x) in factors.zip(twist[power + 1 - terms..=power].iter().rev()) {
-        axpy::<W, FUSED>(k[0], x, &mut now);
-        axpy::<W, FUSED>(k[1], x, &mut next);
+    newest: &[f64; W],
+    known: &[[f64; W]],
+) -> [[f64; W]; BLOCK] {
+    let k = &tangent.stiffness;
+    // Each sum has a name, so that all stay in registers; those of every other twist are apart, as a
+    // sum waits for the one before.
+    let mut now = [0.0; W];
+    let mut first = times(k[0], newest);
+    let mut second = times(k[1], newest);
+    let mut third = times(k[2], newest);
+    let [mut now_too, mut first_too, mut second_too, mut third_too] = [[0.0; W]; BLOCK];
+    // Beyond the terms that count the stiffness is nothing.
+    let terms = tangent.stiffness_terms.min(known.len());
+    let mut factors = &tangent.stiffness[..terms + BLOCK - 1];
+    let mut twists = &known[known.len() - terms..];
+    while let ([a, b, c, d, e, ..], [rest @ .., y, x]) = (factors, twists) {
+        axpy::<W, FUSED>(*a, x, &mut now);
+        axpy::<W, FUSED>(*b, x, &mut first);
+        axpy::<W, FUSED>(*c, x, &mut second);
+        axpy::<W, FUSED>(*d, x, &mut third);
+        axpy::<W, FUSED>(*b, y, &mut now_too);
+        axpy::<W, FUSED>(*c, y, &mut first_too);
+        axpy::<W, FUSED>(*d, y, &mut second_too);
+        axpy::<W, FUSED>(*e, y, &mut third_too);
+        (factors, twists) = (&factors[2..], rest);
     }
-    (now, next)
+    if let ([a, b, c, d, ..], [x]) = (factors, twists) {
+        axpy::<W, FUSED>(*a, x, &mut now);
+        axpy::<W, FUSED>(*b, x, &mut first);
+        axpy::<W, FUSED>(*c, x, &mut second);
+        axpy::<W, FUSED>(*d, x, &mut third);
+    }
+    axpy::<W, FUSED>(1.0, &now_too, &mut now);
+    axpy::<W, FUSED>(1.0, &first_too, &mut first);
+    axpy::<W, FUSED>(1.0, &second_too, &mut second);
+    axpy::<W, FUSED>(1.0, &third_too, &mut third);
+    [now, first, second, third]
 }
 
 /// Adds what the damper of a connection does at a power of time.
@@ -81,15 +112,22 @@ pub(super) fn dampers<const W: usize, const FUSED: bool>(
     power: usize,
     torque: &mut [f64; W],
 ) {
-    if tangent.damping_terms == 1 {
-        axpy::<W, FUSED>(tangent.damping[0] * (power + 1) as f64, &twist[power + 1], torque);
-        return;
+    axpy::<W, FUSED>(tangent.damping[0] * (power + 1) as f64, &twist[power + 1], torque);
+    if tangent.damping_terms > 1 {
+        resistance::<W, FUSED>(tangent, &twist[..=power], torque);
     }
-    let terms = tangent.damping_terms.min(power + 1);
-    for (j, c) in tangent.damping[..terms].iter().enumerate() {
-        if *c != 0.0 {
-            axpy::<W, FUSED>(c * (power - j + 1) as f64, &twist[power - j + 1], torque);
-        }
+}
+
+/// What the damper adds by the twists before the newest, power by power.
+#[inline(always)]
+pub(super) fn resistance<const W: usize, const FUSED: bool>(
+    tangent: &Tangent,
+    known: &[[f64; W]],
+    torque: &mut [f64; W],
+) {
+    let twists = known.iter().enumerate().skip(1).rev();
+    for (c, (power, twist)) in tangent.damping[1..tangent.damping_terms].iter().zip(twists) {
+        axpy::<W, FUSED>(c * power as f64, twist, torque);
     }
 }
 
@@ -101,6 +139,17 @@ pub(super) fn axpy<const W: usize, const FUSED: bool>(factor: f64, x: &[f64; W],
     }
 }
 
+/// `factor x` in all lanes. As below, a loop: the library's functions for arrays are not sure to be
+/// compiled with the instructions at hand.
+#[inline(always)]
+pub(super) fn times<const W: usize>(factor: f64, x: &[f64; W]) -> [f64; W] {
+    let mut out = [0.0; W];
+    for lane in 0..W {
+        out[lane] = factor * x[lane];
+    }
+    out
+}
+
 /// `factor x + y` in all lanes.
 #[inline(always)]
 pub(super) fn sums<const W: usize, const FUSED: bool>(
@@ -108,7 +157,9 @@ pub(super) fn sums<const W: usize, const FUSED: bool>(
     x: &[f64; W],
     y: &[f64; W],
 ) -> [f64; W] {
-    std::array::from_fn(|lane| sum::<FUSED>(factor, x[lane], y[lane]))
+    let mut out = *y;
+    axpy::<W, FUSED>(factor, x, &mut out);
+    out
 }
 
 /// `a b + c`.

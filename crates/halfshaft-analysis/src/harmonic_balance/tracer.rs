@@ -83,7 +83,8 @@ pub(crate) struct TraceSettings {
     pub(crate) harmonics: Option<usize>,
     /// Miss of the tangent that is aimed at, in the metric.
     pub(crate) miss: f64,
-    /// Longest step, in the metric.
+    /// First and longest step, in the metric.
+    pub(crate) first: f64,
     pub(crate) longest: f64,
     /// Samples of a branch at most, those of many harmonics counted for more than one.
     pub(crate) most_samples: usize,
@@ -93,6 +94,8 @@ pub(crate) struct TraceSettings {
 
 /// Default of [`TraceSettings::miss`].
 pub(crate) const MISS: f64 = 0.001;
+/// Default of [`TraceSettings::first`].
+pub(crate) const FIRST: f64 = 0.02;
 /// Default of [`TraceSettings::longest`].
 pub(crate) const LONGEST: f64 = 0.08;
 /// Shortest step, in the metric.
@@ -260,7 +263,7 @@ impl<'t, 'f> Tracer<'t, 'f> {
     pub(super) fn follow(&mut self, start: &Sample, sign: f64) -> (Vec<Sample>, BranchEnd) {
         let mut samples = Vec::with_capacity(FIRST_ROOM);
         samples.push(oriented(start, sign));
-        let mut step = 0.02;
+        let mut step = self.settings.first;
         let mut set = start.set.clone();
         self.choose(&set);
         let mut work = 0.0;

@@ -3,7 +3,8 @@
 use halfshaft_dynamics::{Connection, EquationsOfMotion};
 
 use super::panels::{TERMS, Tangent};
-use super::structure::{Structure, dampers, springs, sums, with_speed};
+use super::series::INVERSE;
+use super::structure::{BLOCK, Structure, axpy, resistance, springs, sums, times, with_speed};
 
 /// The whole line: the columns are changes of the twists of its tree and of their rates.
 #[derive(Debug)]
@@ -11,7 +12,8 @@ pub(super) struct WholeLine<'e> {
     equations: &'e EquationsOfMotion,
     connections: Vec<usize>,
     joints: Vec<[Joint; 2]>,
-    bodies: Vec<Body>,
+    /// Acceleration of each group by its rate.
+    drag: Vec<f64>,
     with_speed: bool,
 }
 
@@ -21,16 +23,8 @@ struct Joint {
     group: usize,
     /// What an angle of the group adds to the twist; nothing at ground.
     ratio: f64,
-    /// Whether the connection is the first or the last of the group in their order.
-    first: bool,
-    last: bool,
-}
-
-/// What a group needs to answer to torques.
-#[derive(Debug)]
-struct Body {
-    yielding: f64,
-    damping: f64,
+    /// Acceleration of the group by the torque of the connection.
+    answer: f64,
 }
 
 impl<'e> WholeLine<'e> {
@@ -39,7 +33,7 @@ impl<'e> WholeLine<'e> {
         Self {
             connections: (0..equations.connections.len()).collect(),
             joints: joints(equations),
-            bodies: ground.map(|(m, d)| Body { yielding: 1.0 / m, damping: *d }).collect(),
+            drag: ground.map(|(m, d)| -d / m).collect(),
             with_speed: with_speed(equations),
             equations,
         }
@@ -50,58 +44,56 @@ impl<'e> WholeLine<'e> {
         self.equations
     }
 
-    /// The coefficients of the angles two powers of time above `power`. What springs do at a power and
-    /// at the next is one pass over the same twists, so that of two passes the second has it: only its
-    /// dampers wait for the rates.
+    /// The coefficients of the angles two powers of time above `power`, which is number `STAGE` of a
+    /// block. In the first of a block springs do what they do by the twists known then in all of it;
+    /// that waits in the places of the twists to come, so that the others have only the newest twists
+    /// left, and their dampers.
     #[inline(always)]
-    fn pass<const W: usize, const FUSED: bool, const SECOND: bool>(
+    fn pass<const W: usize, const FUSED: bool, const STAGE: usize>(
         &self,
         power: usize,
         tangents: &[Tangent],
         angles: &mut [[f64; W]],
         twists: &mut [[f64; W]],
-        (net, kept): (&mut [[f64; W]], &mut [[f64; W]]),
     ) {
-        let groups = self.bodies.len();
+        let groups = self.drag.len();
+        let (next, inverse) = ((power + 1) as f64, INVERSE[power + 1] * INVERSE[power + 2]);
         let (known, later) = angles.split_at_mut((power + 2) * groups);
         let rates = &known[(power + 1) * groups..];
-        let rows = twists.chunks_exact_mut(TERMS).zip(kept);
-        for ((joints, tangent), (row, kept)) in self.joints.iter().zip(tangents).zip(rows) {
-            row[power + 1] = twist::<W, FUSED>(joints, rates);
-            let mut torque = *kept;
-            if !SECOND {
-                (torque, *kept) = springs::<W, FUSED>(tangent, row, power);
+        // Indices, as with iterators the compiler takes a lane of many groups at once.
+        for (at, drag) in self.drag.iter().enumerate() {
+            later[at] = times(inverse * next * drag, &rates[at]);
+        }
+        let (rates, later) = (&rates[..groups], &mut later[..groups]);
+        let rows = twists.chunks_exact_mut(TERMS);
+        for ((joints, tangent), row) in self.joints.iter().zip(tangents).zip(rows) {
+            let (known, new) = row.split_at_mut(power + 1);
+            let mut torque = new[0];
+            let newest = twist::<W, FUSED>(joints, rates);
+            new[0] = newest;
+            if STAGE == 0 {
+                let [now, first, second, third] = springs::<W, FUSED>(tangent, &newest, known);
+                torque = now;
+                new[1] = first;
+                new[2] = second;
+                new[3] = third;
             }
-            dampers::<W, FUSED>(tangent, row, power, &mut torque);
+            for back in 1..STAGE {
+                axpy::<W, FUSED>(
+                    tangent.stiffness[back - 1],
+                    &known[power + 1 - back],
+                    &mut torque,
+                );
+            }
+            axpy::<W, FUSED>(next * tangent.damping[0], &newest, &mut torque);
+            if tangent.damping_terms > 1 {
+                resistance::<W, FUSED>(tangent, known, &mut torque);
+            }
+            let torque = times(inverse, &torque);
             for joint in joints {
-                let at = joint.group;
-                let sum = if joint.first {
-                    torque.map(|torque| -joint.ratio * torque)
-                } else {
-                    sums::<W, FUSED>(-joint.ratio, &torque, &net[at])
-                };
-                if joint.last {
-                    later[at] = self.bodies[at].answer::<W, FUSED>(power, &sum, &rates[at]);
-                } else {
-                    net[at] = sum;
-                }
+                axpy::<W, FUSED>(joint.answer, &torque, &mut later[joint.group]);
             }
         }
-    }
-}
-
-impl Body {
-    /// Coefficient of the angle two powers of time above that of a torque.
-    #[inline(always)]
-    fn answer<const W: usize, const FUSED: bool>(
-        &self,
-        power: usize,
-        net: &[f64; W],
-        rate: &[f64; W],
-    ) -> [f64; W] {
-        let next = (power + 1) as f64;
-        let factor = self.yielding / (next * (next + 1.0));
-        sums::<W, FUSED>(-self.damping * next, rate, net).map(|net| factor * net)
     }
 }
 
@@ -112,20 +104,13 @@ fn joints(equations: &EquationsOfMotion) -> Vec<[Joint; 2]> {
         let other = connection.from.or(connection.to).map_or(0, |(group, _)| group);
         let joint = |end: Option<(usize, f64)>, sign: f64| {
             let (group, ratio) = end.unwrap_or((other, 0.0));
-            Joint { group, ratio: sign * ratio, first: false, last: false }
+            let ratio = sign * ratio;
+            let answer = -ratio / equations.inertia[group];
+            Joint { group, ratio, answer }
         };
         [joint(connection.from, 1.0), joint(connection.to, -1.0)]
     };
-    let mut joints: Vec<[Joint; 2]> = equations.connections.iter().map(ends).collect();
-    let mut seen = vec![false; equations.groups()];
-    for joint in joints.iter_mut().flatten() {
-        joint.first = !std::mem::replace(&mut seen[joint.group], true);
-    }
-    seen.fill(false);
-    for joint in joints.iter_mut().flatten().rev() {
-        joint.last = !std::mem::replace(&mut seen[joint.group], true);
-    }
-    joints
+    equations.connections.iter().map(ends).collect()
 }
 
 /// Twist of a connection from the angles of the groups, all columns of a panel.
@@ -134,7 +119,7 @@ fn twist<const W: usize, const FUSED: bool>(
     [from, to]: &[Joint; 2],
     angles: &[[f64; W]],
 ) -> [f64; W] {
-    let part = angles[from.group].map(|angle| from.ratio * angle);
+    let part = times(from.ratio, &angles[from.group]);
     sums::<W, FUSED>(to.ratio, &angles[to.group], &part)
 }
 
@@ -156,16 +141,17 @@ impl Structure for WholeLine<'_> {
         let tree = equations.network.tree.len();
         let mut unit = vec![0.0; tree];
         let mut values = vec![0.0; equations.groups()];
-        for column in 0..2 * tree {
-            let (power, edge) = (column / tree, column % tree);
+        for edge in 0..tree {
             unit.fill(0.0);
-            unit[edge] = if power == 0 { 1.0 } else { speed };
+            unit[edge] = 1.0;
             equations.group_angles(&unit, &mut values);
             if let Some(rigid) = &equations.rigid {
                 let mean = rigid.mean(&values);
                 values.iter_mut().zip(&rigid.speeds).for_each(|(q, r)| *q -= mean * r);
             }
-            set(column, power, &values);
+            set(edge, 0, &values);
+            values.iter_mut().for_each(|value| *value *= speed);
+            set(tree + edge, 1, &values);
         }
         if let (true, Some(rigid)) = (self.with_speed, &equations.rigid) {
             let values: Vec<f64> = rigid.speeds.iter().map(|r| speed * r).collect();
@@ -180,17 +166,27 @@ impl Structure for WholeLine<'_> {
         degree: usize,
         angles: &mut [[f64; W]],
         twists: &mut [[f64; W]],
-        net: &mut [[f64; W]],
+        _: &mut [[f64; W]],
     ) {
         for (joints, row) in self.joints.iter().zip(twists.chunks_exact_mut(TERMS)) {
-            row[0] = twist::<W, FUSED>(joints, &angles[..self.bodies.len()]);
+            row[0] = twist::<W, FUSED>(joints, &angles[..self.drag.len()]);
         }
-        let (net, kept) = net.split_at_mut(self.bodies.len());
-        for power in (0..degree - 1).step_by(2) {
-            self.pass::<W, FUSED, false>(power, tangents, angles, twists, (net, kept));
-            if power + 1 < degree - 1 {
-                self.pass::<W, FUSED, true>(power + 1, tangents, angles, twists, (net, kept));
+        let mut power = 0;
+        // Only the first block, where there is little to do, may be short.
+        let mut short = (degree - 1) % BLOCK;
+        while power < degree - 1 {
+            let end = power + if short == 0 { BLOCK } else { short };
+            self.pass::<W, FUSED, 0>(power, tangents, angles, twists);
+            if power + 1 < end {
+                self.pass::<W, FUSED, 1>(power + 1, tangents, angles, twists);
             }
+            if power + 2 < end {
+                self.pass::<W, FUSED, 2>(power + 2, tangents, angles, twists);
+            }
+            if power + 3 < end {
+                self.pass::<W, FUSED, 3>(power + 3, tangents, angles, twists);
+            }
+            (power, short) = (end, 0);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::bridge;
 use super::matrix::Matrix;
+use super::middle;
 use super::small;
 use crate::complex::Complex;
 use crate::error::{Error, all_finite};
@@ -31,8 +32,12 @@ pub fn eigenvalues(matrix: &Matrix) -> Result<Vec<Complex>, Error> {
         [a] => vec![Complex::from(a)],
         [a, b, c, d] => two_by_two(a, b, c, d).to_vec(),
         _ => {
-            let small = (matrix.rows() <= small::MOST).then(|| small::eigenvalues(matrix));
-            match small.flatten() {
+            let own = match matrix.rows() {
+                ..=small::MOST => small::eigenvalues(matrix),
+                ..=middle::MOST => middle::eigenvalues(matrix),
+                _ => None,
+            };
+            match own {
                 Some(values) => values,
                 None => bridge::general(matrix, false)?.0,
             }

@@ -12,6 +12,7 @@ mod bridge;
 mod general;
 mod lu;
 mod matrix;
+mod middle;
 mod small;
 mod symmetric;
 
