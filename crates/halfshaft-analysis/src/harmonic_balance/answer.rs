@@ -146,6 +146,7 @@ impl Setting {
             tolerance,
             harmonics,
             miss: MISS,
+            floored: false,
             first: FIRST,
             longest: LONGEST,
             most_samples: 4000,

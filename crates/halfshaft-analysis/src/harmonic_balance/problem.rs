@@ -37,6 +37,8 @@ pub(super) struct Problem<'f> {
     made_for: Option<f64>,
     /// A first correction below this is the last.
     first_enough: f64,
+    /// Any correction below this is, on curves that need not be exact.
+    pub(super) rough: f64,
 }
 
 /// Why a point could not be found.
@@ -116,6 +118,7 @@ impl<'f> Problem<'f> {
             place,
             made_for: None,
             first_enough: CONVERGED,
+            rough: 0.0,
         }
     }
 
@@ -123,7 +126,7 @@ impl<'f> Problem<'f> {
     pub(super) fn with_set(&self, set: HarmonicSet) -> Self {
         let system = HarmonicSystem::new(self.system.line.clone(), set, self.system.base);
         let mut problem = Self::new(system, self.axis, self.place);
-        problem.made_for = self.made_for;
+        (problem.made_for, problem.rough) = (self.made_for, self.rough);
         problem
     }
 
@@ -245,7 +248,8 @@ impl<'f> Problem<'f> {
             if iteration == 1 {
                 done.first = size;
             }
-            if size <= if iteration == 1 { self.first_enough } else { CONVERGED } {
+            let enough = if iteration == 1 { self.first_enough } else { CONVERGED };
+            if size <= enough.max(self.rough) {
                 return Ok(done);
             }
             before = size;

@@ -34,10 +34,13 @@ const LAST_DRIVE: f64 = 20.0;
 /// nodes more than ten.
 const MOST_SAMPLES: usize = 300;
 const LEAST_MOST_SAMPLES: usize = 60;
-/// Longest step over the drive, relative to the response.
-const LONGEST: f64 = 3.0;
+/// First and longest step over the drive, relative to the response.
+const FIRST: f64 = 1.0;
+const LONGEST: f64 = 2.0;
 /// Miss of the tangent on these rough curves.
 const ROUGH: f64 = 0.15;
+/// A correction on them below which the rest, its square, is nothing.
+const ROUGH_CORRECTION: f64 = 1e-4;
 
 /// The curve over the drive at one speed.
 #[derive(Clone, Debug)]
@@ -92,14 +95,17 @@ pub(super) fn drive_curve(
     let system = HarmonicSystem::new(line.clone(), set.clone(), base);
     let place = Place { frequency, drive: FIRST_DRIVE };
     let u = at_rest(line, rest, set);
-    let problem = Problem::new(system, Axis::Drive, place);
+    let mut problem = Problem::new(system, Axis::Drive, place);
+    problem.rough = ROUGH_CORRECTION;
     let settings = TraceSettings {
         range: (0.0, LAST_DRIVE),
         tolerance: 1.0,
         harmonics: Some(set.highest()),
         miss: ROUGH,
+        // Without torque there is nothing but rest.
+        floored: true,
         // Weak responses grow with the drive: nothing bends there.
-        first: LONGEST,
+        first: FIRST,
         longest: LONGEST,
         most_samples: (10 * MOST_SAMPLES / line.nodes().max(10)).max(LEAST_MOST_SAMPLES)
             * work_of(set).ceil() as usize,

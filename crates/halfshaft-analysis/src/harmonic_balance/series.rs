@@ -4,7 +4,7 @@ use halfshaft_dynamics::laws::{Friction, Piece};
 use halfshaft_numerics::harmonics::HarmonicSet;
 
 /// Highest power of time that has a place.
-pub(super) const MOST: usize = 32;
+pub(super) const MOST: usize = 40;
 
 /// Coefficients by power of time.
 pub(super) type Series = [f64; MOST + 1];

@@ -83,6 +83,8 @@ pub(crate) struct TraceSettings {
     pub(crate) harmonics: Option<usize>,
     /// Miss of the tangent that is aimed at, in the metric.
     pub(crate) miss: f64,
+    /// Whether no curve passes the low end of the range: a step beyond it was too long.
+    pub(crate) floored: bool,
     /// First and longest step, in the metric.
     pub(crate) first: f64,
     pub(crate) longest: f64,
@@ -314,7 +316,11 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let recent: Vec<&Sample> = samples.iter().rev().take(PREDICTED_FROM).collect();
         loop {
             self.counted.steps += 1;
-            match self.try_step(&recent, *step, set) {
+            let tried = self.try_step(&recent, *step, set).and_then(|(next, miss)| {
+                let below = self.settings.floored && next.p <= self.settings.range.0;
+                if below { Err(Failure::NotConverged) } else { Ok((next, miss)) }
+            });
+            match tried {
                 Ok((next, miss)) => {
                     // The tangent misses by the square of the step.
                     let factor = (self.settings.miss / miss.max(1e-12)).sqrt().clamp(0.3, 1.8);
