@@ -7,7 +7,7 @@
 //! | `system`, `kinks` | residual and Jacobian (alternating frequency-time; from kink to kink) |
 //! | `problem` | Newton's method on a curve |
 //! | `tracer`, `closing` | pseudo-arclength continuation |
-//! | `series`, `tangents`, `switching`, `lanes`, `panels`, `structure`, `whole_line`, `monodromy`, `side_by_side`, `hill`, `stability` | Floquet multipliers, two ways |
+//! | `series`, `tangents`, `switching`, `lanes`, `panels`, `horner`, `structure`, `whole_line`, `monodromy`, `side_by_side`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
 //! | `exact` | branches of lines with kinks, by shooting |
@@ -38,6 +38,7 @@ mod fold_trace;
 mod gaps;
 mod grazing;
 mod hill;
+mod horner;
 mod images;
 mod jumps;
 mod kinks;

@@ -5,6 +5,7 @@
 
 use halfshaft_numerics::dense::Matrix;
 
+use super::horner::{TOGETHER, horner, horner_of_four, split};
 use super::lanes::Rows;
 use super::series::{MOST, Series, Truncation};
 use super::structure::{Structure, sum, sums, times};
@@ -21,12 +22,13 @@ pub(super) struct Tangent {
 /// Coefficients of a row.
 pub(super) const TERMS: usize = MOST + 1;
 
-/// Powers of time that are summed at once.
-const TOGETHER: usize = 4;
+/// Columns of a last panel that has no more: it costs two thirds of one of 16.
+const NARROW: usize = 8;
 
 /// Columns of the variational equation at one time.
 pub(super) struct Panels<const W: usize> {
-    /// Coordinates, then their rates, panel after panel.
+    /// Coordinates, then their rates, panel after panel. Here as below rows of the narrow panel follow
+    /// each other closely.
     state: Rows<W>,
     next: Rows<W>,
     /// Coefficients of the panel at hand: power, coordinate.
@@ -43,10 +45,10 @@ pub(super) struct Panels<const W: usize> {
     arch: pulp::Arch,
 }
 
-/// One step of one panel, or only its coefficients where no step is given, as work that runs with the
-/// widest instructions of the processor: a structure and no closure, because only that is sure to be
-/// compiled with them.
-struct PanelStep<'p, 'e, S: Structure, const W: usize, const FUSED: bool> {
+/// One step of one panel of `N` columns, or only its coefficients where no step is given, as work that
+/// runs with the widest instructions of the processor: a structure and no closure, because only that is
+/// sure to be compiled with them.
+struct PanelStep<'p, 'e, S: Structure, const W: usize, const N: usize, const FUSED: bool> {
     panels: &'p mut Panels<W>,
     structure: &'e S,
     tangents: &'e [Tangent],
@@ -54,8 +56,8 @@ struct PanelStep<'p, 'e, S: Structure, const W: usize, const FUSED: bool> {
     step: Option<f64>,
 }
 
-impl<S: Structure, const W: usize, const FUSED: bool> pulp::NullaryFnOnce
-    for PanelStep<'_, '_, S, W, FUSED>
+impl<S: Structure, const W: usize, const N: usize, const FUSED: bool> pulp::NullaryFnOnce
+    for PanelStep<'_, '_, S, W, N, FUSED>
 {
     /// The longest step that the terms of the panel allow.
     type Output = f64;
@@ -63,12 +65,14 @@ impl<S: Structure, const W: usize, const FUSED: bool> pulp::NullaryFnOnce
     #[inline(always)]
     fn call(self) -> f64 {
         let Self { panels, structure, tangents, panel, step } = self;
-        panels.load(panel);
-        let Panels { coordinates, twists, net, truncation, .. } = panels;
-        structure.recur::<W, FUSED>(tangents, truncation.degree, coordinates, twists, net);
-        let reach = panels.reach();
+        panels.load::<N>(panel);
+        let Panels { coordinates, twists, net, truncation, speed, count, .. } = panels;
+        let coordinates = narrow::<W, N>(coordinates);
+        let (twists, net) = (narrow::<W, N>(twists), narrow::<W, N>(net));
+        structure.recur::<N, FUSED>(tangents, truncation.degree, coordinates, twists, net);
+        let reach = reach(*truncation, *speed, coordinates, *count);
         if let Some(step) = step {
-            panels.advance::<FUSED>(panel, step);
+            panels.advance::<N, FUSED>(panel, step);
         }
         reach
     }
@@ -79,16 +83,9 @@ impl<const W: usize> Panels<W> {
     pub(super) fn new(structure: &impl Structure, speed: f64, truncation: Truncation) -> Self {
         let (count, columns) = (structure.coordinates(), structure.columns());
         let panels = columns.div_ceil(W);
-        let mut state = Rows::<W>::zeros(panels * 2 * count);
-        structure.start(speed, &mut |column, power, values| {
-            let from = (2 * (column / W) + power) * count;
-            for (row, value) in state[from..from + count].iter_mut().zip(values) {
-                row[column % W] = *value;
-            }
-        });
-        Self {
-            next: Rows::zeros(state.len()),
-            state,
+        let mut panels = Self {
+            state: Rows::zeros(panels * 2 * count),
+            next: Rows::zeros(panels * 2 * count),
             coordinates: Rows::zeros(TERMS * count),
             twists: Rows::zeros(TERMS * structure.connections().len()),
             net: Rows::zeros(count),
@@ -97,7 +94,32 @@ impl<const W: usize> Panels<W> {
             count,
             speed,
             truncation,
-        }
+        };
+        panels.begin(structure);
+        panels
+    }
+
+    /// Sets the columns of the start in a state of zeros.
+    fn begin(&mut self, structure: &impl Structure) {
+        structure.start(self.speed, &mut |column, power, values| {
+            let (from, width) = self.place(column, power);
+            let state = self.state.as_flattened_mut();
+            for (at, value) in values.iter().enumerate() {
+                state[from + at * width] = *value;
+            }
+        });
+    }
+
+    /// Columns of a panel.
+    fn width(&self, panel: usize) -> usize {
+        if W > NARROW && self.columns - panel * W <= NARROW { NARROW } else { W }
+    }
+
+    /// Where coefficients of a column (power 0 or 1) begin in the state, and how far apart they are.
+    fn place(&self, column: usize, power: usize) -> (usize, usize) {
+        let (panel, lane) = (column / W, column % W);
+        let width = self.width(panel);
+        (panel * 2 * self.count * W + power * self.count * width + lane, width)
     }
 
     /// The longest step that the terms of all panels allow.
@@ -116,13 +138,26 @@ impl<const W: usize> Panels<W> {
         panel: usize,
         step: Option<f64>,
     ) -> f64 {
-        let arch = self.arch;
-        if matches!(arch, pulp::Arch::Scalar) {
-            let panels = self;
-            arch.dispatch(PanelStep::<_, W, false> { panels, structure, tangents, panel, step })
+        if self.width(panel) < W {
+            self.work_on::<_, NARROW>(structure, tangents, panel, step)
         } else {
-            let panels = self;
-            arch.dispatch(PanelStep::<_, W, true> { panels, structure, tangents, panel, step })
+            self.work_on::<_, W>(structure, tangents, panel, step)
+        }
+    }
+
+    /// The same for a panel of `N` columns.
+    fn work_on<S: Structure, const N: usize>(
+        &mut self,
+        structure: &S,
+        tangents: &[Tangent],
+        panel: usize,
+        step: Option<f64>,
+    ) -> f64 {
+        let (arch, panels) = (self.arch, self);
+        if matches!(arch, pulp::Arch::Scalar) {
+            arch.dispatch(PanelStep::<_, W, N, false> { panels, structure, tangents, panel, step })
+        } else {
+            arch.dispatch(PanelStep::<_, W, N, true> { panels, structure, tangents, panel, step })
         }
     }
 
@@ -152,52 +187,22 @@ impl<const W: usize> Panels<W> {
     }
 
     #[inline(always)]
-    fn load(&mut self, panel: usize) {
+    fn load<const N: usize>(&mut self, panel: usize) {
         let from = 2 * panel * self.count;
-        self.coordinates[..2 * self.count]
-            .copy_from_slice(&self.state[from..from + 2 * self.count]);
-    }
-
-    /// The step after which the last two terms are rounding beside the first.
-    #[inline(always)]
-    fn reach(&self) -> f64 {
-        let scale = self.size(0).max(self.size(1) / self.speed);
-        let degree = self.truncation.degree;
-        // One after the other: a closure would not be compiled with the instructions at hand.
-        let last = self.longest(scale, degree);
-        last.min(self.longest(scale, degree - 1))
-    }
-
-    /// The step after which the term of a power is rounding beside `scale`.
-    #[inline(always)]
-    fn longest(&self, scale: f64, power: usize) -> f64 {
-        match self.size(power) {
-            0.0 => f64::INFINITY,
-            size => (self.truncation.rounding * scale / size).powf(1.0 / power as f64),
-        }
-    }
-
-    /// The largest of all coefficients of a power.
-    #[inline(always)]
-    fn size(&self, power: usize) -> f64 {
-        let rows = &self.coordinates[power * self.count..(power + 1) * self.count];
-        // Sizes are in the order of their bits, the maximum of which takes whole registers.
-        let mut most = 0_i64;
-        for value in rows.as_flattened() {
-            let bits = value.abs().to_bits().cast_signed();
-            most = if bits > most { bits } else { most };
-        }
-        f64::from_bits(most.cast_unsigned())
+        let state = self.state[from..].as_flattened().as_chunks::<N>().0;
+        let coordinates = narrow::<W, N>(&mut self.coordinates);
+        coordinates[..2 * self.count].copy_from_slice(&state[..2 * self.count]);
     }
 
     /// Writes coordinates and rates after `step` to the next state.
     #[inline(always)]
-    fn advance<const FUSED: bool>(&mut self, panel: usize, step: f64) {
-        let size = self.count * W;
-        if W < 8 {
+    fn advance<const N: usize, const FUSED: bool>(&mut self, panel: usize, step: f64) {
+        if N < 8 {
             return self.advance_few::<FUSED>(panel, step);
         }
-        let next = &mut self.next.as_flattened_mut()[2 * panel * size..2 * (panel + 1) * size];
+        let size = self.count * N;
+        let from = 2 * panel * self.count * W;
+        let next = &mut self.next.as_flattened_mut()[from..from + 2 * size];
         let (values, slopes) = next.split_at_mut(size);
         values.fill(0.0);
         slopes.fill(0.0);
@@ -245,12 +250,13 @@ impl<const W: usize> Panels<W> {
         let (count, n) = (self.count, self.columns);
         let mut matrix = Matrix::zeros(n, n);
         let mut values = vec![0.0; count];
+        let state = self.state.as_flattened();
         for column in 0..n {
             for power in 0..2 {
                 let scale = if power == 0 { 1.0 } else { 1.0 / self.speed };
-                let from = (2 * (column / W) + power) * count;
-                for (value, row) in values.iter_mut().zip(&self.state[from..from + count]) {
-                    *value = scale * row[column % W];
+                let (from, width) = self.place(column, power);
+                for (at, value) in values.iter_mut().enumerate() {
+                    *value = scale * state[from + at * width];
                 }
                 structure.finish(power, &values, &mut |row, value| matrix[(row, column)] = value);
             }
@@ -259,42 +265,42 @@ impl<const W: usize> Panels<W> {
     }
 }
 
-/// The terms of as many powers as are summed at once, each of `size` numbers; `None` where there are
-/// fewer.
+/// A store as rows of a panel of `N` columns.
 #[inline(always)]
-fn split(terms: &[f64], size: usize) -> Option<[&[f64]; TOGETHER]> {
-    if terms.len() != TOGETHER * size {
-        return None;
-    }
-    let (low, high) = terms.split_at(2 * size);
-    let ((first, second), (third, fourth)) = (low.split_at(size), high.split_at(size));
-    Some([first, second, third, fourth])
+fn narrow<const W: usize, const N: usize>(rows: &mut [[f64; W]]) -> &mut [[f64; N]] {
+    rows.as_flattened_mut().as_chunks_mut().0
 }
 
-/// A step of Horner's rule down to the next power, for values and their slopes.
+/// The step after which the last two terms are rounding beside the first, rates measured by `speed`.
 #[inline(always)]
-fn horner<const FUSED: bool>(step: f64, values: &mut [f64], slopes: &mut [f64], terms: &[f64]) {
-    for ((value, slope), term) in values.iter_mut().zip(slopes).zip(terms) {
-        *slope = sum::<FUSED>(step, *slope, *value);
-        *value = sum::<FUSED>(step, *value, *term);
-    }
+fn reach<const N: usize>(
+    truncation: Truncation,
+    speed: f64,
+    coordinates: &[[f64; N]],
+    count: usize,
+) -> f64 {
+    let Truncation { degree, rounding } = truncation;
+    let rounding = rounding * size(coordinates, 0, count).max(size(coordinates, 1, count) / speed);
+    // One after the other: a closure would not be compiled with the instructions at hand.
+    let last = longest(rounding, size(coordinates, degree, count), degree);
+    last.min(longest(rounding, size(coordinates, degree - 1, count), degree - 1))
 }
 
-/// Four such steps, down to the first of the powers.
+/// The step after which the term of a power is `rounding`.
 #[inline(always)]
-fn horner_of_four<const FUSED: bool>(
-    step: f64,
-    values: &mut [f64],
-    slopes: &mut [f64],
-    [a, b, c, d]: [&[f64]; TOGETHER],
-) {
-    let terms = a.iter().zip(b).zip(c.iter().zip(d));
-    for ((value, slope), ((a, b), (c, d))) in values.iter_mut().zip(slopes).zip(terms) {
-        let (mut v, mut s) = (*value, *slope);
-        for term in [d, c, b, a] {
-            s = sum::<FUSED>(step, s, v);
-            v = sum::<FUSED>(step, v, *term);
-        }
-        (*value, *slope) = (v, s);
+fn longest(rounding: f64, size: f64, power: usize) -> f64 {
+    if size == 0.0 { f64::INFINITY } else { (rounding / size).powf(1.0 / power as f64) }
+}
+
+/// The largest of all coefficients of a power.
+#[inline(always)]
+fn size<const N: usize>(coordinates: &[[f64; N]], power: usize, count: usize) -> f64 {
+    let rows = &coordinates[power * count..(power + 1) * count];
+    // Sizes are in the order of their bits, the maximum of which takes whole registers.
+    let mut most = 0_i64;
+    for value in rows.as_flattened() {
+        let bits = value.abs().to_bits().cast_signed();
+        most = if bits > most { bits } else { most };
     }
+    f64::from_bits(most.cast_unsigned())
 }

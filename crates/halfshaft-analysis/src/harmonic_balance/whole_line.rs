@@ -12,8 +12,8 @@ pub(super) struct WholeLine<'e> {
     equations: &'e EquationsOfMotion,
     connections: Vec<usize>,
     joints: Vec<[Joint; 2]>,
-    /// Acceleration of each group by its rate.
-    drag: Vec<f64>,
+    /// Groups without a connection, and the acceleration of each by its rate.
+    alone: Vec<(usize, f64)>,
     with_speed: bool,
 }
 
@@ -25,15 +25,17 @@ struct Joint {
     ratio: f64,
     /// Acceleration of the group by the torque of the connection.
     answer: f64,
+    /// Its acceleration by its rate, where the connection is the first that meets it.
+    drag: Option<f64>,
 }
 
 impl<'e> WholeLine<'e> {
     pub(super) fn new(equations: &'e EquationsOfMotion) -> Self {
-        let ground = equations.inertia.iter().zip(&equations.ground_damping);
+        let joints = joints(equations);
         Self {
             connections: (0..equations.connections.len()).collect(),
-            joints: joints(equations),
-            drag: ground.map(|(m, d)| -d / m).collect(),
+            alone: alone(equations, &joints),
+            joints,
             with_speed: with_speed(equations),
             equations,
         }
@@ -56,13 +58,12 @@ impl<'e> WholeLine<'e> {
         angles: &mut [[f64; W]],
         twists: &mut [[f64; W]],
     ) {
-        let groups = self.drag.len();
+        let groups = self.equations.groups();
         let (next, inverse) = ((power + 1) as f64, INVERSE[power + 1] * INVERSE[power + 2]);
         let (known, later) = angles.split_at_mut((power + 2) * groups);
         let rates = &known[(power + 1) * groups..];
-        // Indices, as with iterators the compiler takes a lane of many groups at once.
-        for (at, drag) in self.drag.iter().enumerate() {
-            later[at] = times(inverse * next * drag, &rates[at]);
+        for (group, drag) in &self.alone {
+            later[*group] = times(inverse * next * drag, &rates[*group]);
         }
         let (rates, later) = (&rates[..groups], &mut later[..groups]);
         let rows = twists.chunks_exact_mut(TERMS);
@@ -91,7 +92,11 @@ impl<'e> WholeLine<'e> {
             }
             let torque = times(inverse, &torque);
             for joint in joints {
-                axpy::<W, FUSED>(joint.answer, &torque, &mut later[joint.group]);
+                let angle = &mut later[joint.group];
+                if let Some(drag) = joint.drag {
+                    *angle = times(inverse * next * drag, &rates[joint.group]);
+                }
+                axpy::<W, FUSED>(joint.answer, &torque, angle);
             }
         }
     }
@@ -100,17 +105,30 @@ impl<'e> WholeLine<'e> {
 /// Both ends of all connections. An end at ground stands at the group of the other, where it does
 /// nothing.
 fn joints(equations: &EquationsOfMotion) -> Vec<[Joint; 2]> {
+    let mut drags: Vec<_> = drags(equations).map(Some).collect();
     let ends = |connection: &Connection| {
         let other = connection.from.or(connection.to).map_or(0, |(group, _)| group);
-        let joint = |end: Option<(usize, f64)>, sign: f64| {
+        let mut joint = |end: Option<(usize, f64)>, sign: f64| {
             let (group, ratio) = end.unwrap_or((other, 0.0));
             let ratio = sign * ratio;
             let answer = -ratio / equations.inertia[group];
-            Joint { group, ratio, answer }
+            let drag = drags[group].take();
+            Joint { group, ratio, answer, drag }
         };
         [joint(connection.from, 1.0), joint(connection.to, -1.0)]
     };
     equations.connections.iter().map(ends).collect()
+}
+
+/// Acceleration of each group by its rate.
+fn drags(equations: &EquationsOfMotion) -> impl Iterator<Item = f64> {
+    equations.inertia.iter().zip(&equations.ground_damping).map(|(m, d)| -d / m)
+}
+
+/// Groups that no joint meets, and their accelerations.
+fn alone(equations: &EquationsOfMotion, joints: &[[Joint; 2]]) -> Vec<(usize, f64)> {
+    let met = |group| joints.as_flattened().iter().any(|joint| joint.group == group);
+    drags(equations).enumerate().filter(|(group, _)| !met(*group)).collect()
 }
 
 /// Twist of a connection from the angles of the groups, all columns of a panel.
@@ -169,7 +187,7 @@ impl Structure for WholeLine<'_> {
         _: &mut [[f64; W]],
     ) {
         for (joints, row) in self.joints.iter().zip(twists.chunks_exact_mut(TERMS)) {
-            row[0] = twist::<W, FUSED>(joints, &angles[..self.drag.len()]);
+            row[0] = twist::<W, FUSED>(joints, &angles[..self.equations.groups()]);
         }
         let mut power = 0;
         // Only the first block, where there is little to do, may be short.
