@@ -11,7 +11,7 @@
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
 //! | `exact` | branches of lines with kinks, by shooting |
-//! | `seeds`, `tips`, `branches`, `branching` | all branches, detached ones and those that branch off included |
+//! | `seeds`, `passages`, `tips`, `branches`, `branching` | all branches, detached ones and those that branch off included |
 //! | `lines`, `fold_system`, `fold_points`, `fold_trace`, `fold_answer` | curves of folds in a plane, cusps, births of detached responses |
 //! | `backbone` | phase resonance, and free oscillation without damping |
 //! | `parameter_answer` | a number of the line in place of the speed |
@@ -54,6 +54,7 @@ mod monodromy;
 mod orbits;
 mod panels;
 mod parameter_answer;
+mod passages;
 mod predictor;
 mod problem;
 mod range;

@@ -11,9 +11,10 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
 use super::line::Line;
-use super::problem::{Axis, Metric, Problem};
+use super::passages::passages;
+use super::problem::{Axis, Problem};
 use super::system::{HarmonicSystem, Place};
-use super::tracer::{Counted, Sample, TraceSettings, Tracer, length, work_of};
+use super::tracer::{Counted, TraceSettings, Tracer, work_of};
 
 /// A guess at a response: coefficients of the kept groups over a set.
 #[derive(Clone, Debug)]
@@ -22,8 +23,6 @@ pub(super) struct Seed {
     pub(super) u: Vec<f64>,
 }
 
-/// Halvings of the way between two samples of a curve over the drive.
-const HALVINGS: usize = 6;
 /// Drive at which a curve begins.
 pub(super) const FIRST_DRIVE: f64 = 1e-3;
 /// The same, and lower ones for torques so strong that it is no small response.
@@ -124,7 +123,8 @@ pub(super) fn drive_curve(
         let sign = if start.tangent_p < 0.0 { -1.0 } else { 1.0 };
         let (samples, _) = tracer.follow(&start, sign);
         for pair in samples.windows(2) {
-            curve.seeds.extend(passages(&mut tracer, &pair[0], &pair[1]));
+            let found = passages(&mut tracer, &pair[0], &pair[1]);
+            curve.seeds.extend(found.into_iter().map(|u| Seed { set: set.clone(), u }));
         }
         // At one speed the torques of drive 1 are the same all along.
         let torques = tracer.problem.system.by_drive.clone();
@@ -160,90 +160,6 @@ pub(super) fn reactive(set: &HarmonicSet, torques: &[f64], u: &[f64], order: usi
         torque[place] * response[place] + torque[place + 1] * response[place + 1]
     };
     torques.chunks_exact(m).zip(u.chunks_exact(m)).map(of).sum()
-}
-
-/// The responses of drive 1 between two samples of a curve over the drive: two where it turns between
-/// them beyond 1.
-fn passages(tracer: &mut Tracer<'_, '_>, from: &Sample, to: &Sample) -> Vec<Seed> {
-    let crosses = |a: &Sample, b: &Sample| (a.p - 1.0) * (b.p - 1.0) <= 0.0;
-    if crosses(from, to) {
-        return passage(tracer, from, to).into_iter().collect();
-    }
-    let Some(part) = turn_beyond(from, to) else { return Vec::new() };
-    let Ok(middle) = tracer.on_segment((from, to), part, &from.set) else { return Vec::new() };
-    if !crosses(from, &middle) {
-        return Vec::new();
-    }
-    [(from, &middle), (&middle, to)]
-        .into_iter()
-        .filter_map(|(a, b)| passage(tracer, a, b))
-        .collect()
-}
-
-/// Part of the way between two samples on the same side of drive 1 at which the cubic through them and
-/// their directions turns on the other side.
-fn turn_beyond(from: &Sample, to: &Sample) -> Option<f64> {
-    let metric = Metric { size: from.metric.0, span: from.metric.1 };
-    let chord: Vec<f64> = to.u.iter().zip(&from.u).map(|(b, a)| b - a).collect();
-    let way = to.p - from.p;
-    let square = metric.norm(&chord, way).powi(2);
-    // Change of the drive as the chord is passed at unit speed.
-    let [first, last] = [from, to].map(|sample| {
-        let share = metric.dot((&sample.tangent, sample.tangent_p), (&chord, way));
-        if share > 0.0 { sample.tangent_p * square / share } else { f64::NAN }
-    });
-    if !(first * last < 0.0) {
-        return None;
-    }
-    let (bend, twist) = (3.0 * way - 2.0 * first - last, first + last - 2.0 * way);
-    let drive = |s: f64| from.p + s * (first + s * (bend + s * twist));
-    let turns = real_quadratic(3.0 * twist, 2.0 * bend, first);
-    let inside = turns.into_iter().filter(|s| *s > 0.0 && *s < 1.0);
-    let mut beyond = inside.filter(|s| (drive(*s) - 1.0) * (from.p - 1.0) < 0.0);
-    beyond.next()
-}
-
-/// Real roots of `a x² + b x + c`.
-fn real_quadratic(a: f64, b: f64, c: f64) -> [f64; 2] {
-    let sum = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
-    [sum / a, c / sum]
-}
-
-/// The response of drive 1 between two samples of a curve over the drive.
-fn passage(tracer: &mut Tracer<'_, '_>, from: &Sample, to: &Sample) -> Option<Seed> {
-    if (from.p - 1.0) * (to.p - 1.0) > 0.0 || from.p == to.p {
-        return None;
-    }
-    let part = (1.0 - from.p) / (to.p - from.p);
-    let mix = |(a, b): (&f64, &f64)| a + part * (b - a);
-    let guess: Vec<f64> = from.u.iter().zip(&to.u).map(mix).collect();
-    let seed = |u| Seed { set: from.set.clone(), u };
-    if let Some(u) = at_full_drive(tracer, &guess, (&from.u, &to.u)) {
-        return Some(seed(u));
-    }
-    // The curve bends between them: halve the way, on the curve, until it does no more.
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        let sample = tracer.on_segment((from, to), middle, &from.set).ok()?;
-        if let Some(u) = at_full_drive(tracer, &sample.u, (&from.u, &to.u)) {
-            return Some(seed(u));
-        }
-        if (sample.p - 1.0) * (from.p - 1.0) > 0.0 { low = middle } else { high = middle }
-    }
-    None
-}
-
-/// The response of drive 1 from a guess between two others, no further from it than they are apart.
-fn at_full_drive(
-    tracer: &mut Tracer<'_, '_>,
-    guess: &[f64],
-    (from, to): (&[f64], &[f64]),
-) -> Option<Vec<f64>> {
-    let mut u = guess.to_vec();
-    tracer.problem.at(&mut u, 1.0, length(guess)).ok()?;
-    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
-    (apart(&u, guess) <= apart(from, to)).then_some(u)
 }
 
 /// The line at rest: the mean of every kept group, nothing else.

@@ -68,8 +68,28 @@ impl Segment {
         Condition { row: &self.row, corner: self.corner, target }
     }
 
+    /// The parameter at a part of Hermite's cubic through both samples with their directions.
+    pub(super) fn parameter(&self, s: f64) -> f64 {
+        let (bend, twist) = self.curvature();
+        self.from.p + s * (self.from.along_p + s * (bend + s * twist))
+    }
+
+    /// Parts within the segment at which that parameter turns.
+    pub(super) fn turns(&self) -> Vec<f64> {
+        let (bend, twist) = self.curvature();
+        let (a, b, c) = (3.0 * twist, 2.0 * bend, self.from.along_p);
+        let sum = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
+        [sum / a, c / sum].into_iter().filter(|s| *s > 0.0 && *s < 1.0).collect()
+    }
+
+    /// Coefficients of the square and the cube of the part in that parameter.
+    fn curvature(&self) -> (f64, f64) {
+        let (way, first, last) = (self.to.p - self.from.p, self.from.along_p, self.to.along_p);
+        (3.0 * way - 2.0 * first - last, first + last - 2.0 * way)
+    }
+
     /// Hermite's cubic through both samples with their directions.
-    fn guess(&self, s: f64) -> (Vec<f64>, f64) {
+    pub(super) fn guess(&self, s: f64) -> (Vec<f64>, f64) {
         let weights = [
             (1.0 + 2.0 * s) * (1.0 - s) * (1.0 - s),
             s * (1.0 - s) * (1.0 - s),
@@ -153,5 +173,42 @@ impl Tracer<'_, '_> {
     ) -> Result<Sample, Failure> {
         let unit = (&segment.unit[..], segment.unit_p);
         self.finish_sample(segment.set.clone(), u, p, &segment.metric, Some(unit))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn segment(top: f64) -> Segment {
+        let end = |u: f64| End {
+            u: vec![u],
+            p: top - (u - 0.5) * (u - 0.5),
+            along: vec![1.0],
+            along_p: -2.0 * (u - 0.5),
+        };
+        Segment {
+            set: HarmonicSet::odd(1),
+            from: end(0.0),
+            to: end(1.0),
+            metric: Metric { size: 1.0, span: 1.0 },
+            row: vec![1.0],
+            corner: 0.0,
+            length: 1.0,
+            unit: vec![1.0],
+            unit_p: 0.0,
+        }
+    }
+
+    // Source: by hand, the parameter 1.1 - (u - 0.5)², which the cubic is.
+    #[test]
+    fn turns_of_the_parameter_between_samples_are_known() {
+        let segment = segment(1.1);
+        assert_eq!(segment.turns(), [0.5]);
+        for part in [0.0, 0.2, 0.5, 1.0] {
+            let by_hand = 1.1 - (part - 0.5) * (part - 0.5);
+            assert!((segment.parameter(part) - by_hand).abs() < 1e-15);
+            assert!((segment.guess(part).1 - by_hand).abs() < 1e-15);
+        }
     }
 }

@@ -8,6 +8,7 @@ mod independent;
 #[path = "../../../tests/common/lines.rs"]
 mod lines;
 mod long;
+mod over_drive;
 mod robust;
 mod side_by_side;
 
