@@ -6,7 +6,7 @@
 //! | `skeleton`, `condensed`, `line` | the linear rest of the line taken out, harmonic by harmonic |
 //! | `system`, `kinks` | residual and Jacobian (alternating frequency-time; from kink to kink) |
 //! | `problem` | Newton's method on a curve |
-//! | `tracer`, `closing` | pseudo-arclength continuation |
+//! | `tracer`, `predictor`, `adapting`, `closing` | pseudo-arclength continuation |
 //! | `series`, `tangents`, `switching`, `lanes`, `panels`, `horner`, `structure`, `whole_line`, `monodromy`, `side_by_side`, `hill`, `stability` | Floquet multipliers, two ways |
 //! | `special`, `grazing` | folds, branch points, period doublings, Neimark-Sacker points, grazing contact |
 //! | `orbits`, `refine` | special points of lines with kinks, by shooting |
@@ -19,6 +19,7 @@
 //! | `channels`, `breaks`, `measured`, `jumps`, `range`, `verify`, `messages`, `answer` | from branches to the answer |
 //! | `layers` | single layers, for benches |
 
+mod adapting;
 mod alternating;
 mod answer;
 mod at_speed;

@@ -2,6 +2,11 @@
 //!
 //! Newton's method then needs one step where it would need two from the tangent.
 
+use halfshaft_numerics::harmonics::HarmonicSet;
+
+use super::problem::Metric;
+use super::tracer::{Sample, refit};
+
 /// Directions of neighbours that differ by more than this cosine are not fitted together.
 const LEAST_TURN: f64 = 0.5;
 /// Steps longer than so many times the way to a sample are not extrapolated from it.
@@ -31,7 +36,8 @@ pub(super) fn bend(
         let place = Known::new(last, waypoint, dot, along);
         // In order, and near enough to tell what comes.
         let nearest = known.last().map_or(0.0, |known| known.way);
-        if !(place.way < nearest) || step > -LONGEST * place.way {
+        let tells = place.way < nearest && step <= -LONGEST * place.way;
+        if !tells {
             break;
         }
         known.push(place);
@@ -57,6 +63,34 @@ pub(super) fn bend(
             *x += value * back + slope * direction;
         }
     }
+}
+
+/// Where a step along a direction from the latest of the recent samples is expected to end.
+pub(super) fn predicted(
+    recent: &[&Sample],
+    set: &HarmonicSet,
+    metric: &Metric,
+    step: f64,
+    (along, along_p): (&[f64], f64),
+) -> (Vec<f64>, f64) {
+    let whole = |from: &HarmonicSet, u: &[f64], p: f64| {
+        let mut whole = refit(from, set, 1, u);
+        whole.push(p);
+        whole
+    };
+    let waypoint = |sample: &&Sample| Waypoint {
+        place: whole(&sample.set, &sample.u, sample.p),
+        direction: whole(&sample.set, &sample.tangent, sample.tangent_p),
+    };
+    let list: Vec<Waypoint> = recent.iter().map(waypoint).collect();
+    let along = whole(set, along, along_p);
+    let Some(last) = list.first() else { return (Vec::new(), f64::NAN) };
+    let mut point: Vec<f64> = last.place.iter().zip(&along).map(|(x, t)| x + step * t).collect();
+    let m = along.len() - 1;
+    let dot = |a: &[f64], b: &[f64]| metric.dot((&a[..m], a[m]), (&b[..m], b[m]));
+    bend(&list, &dot, step, &along, &mut point);
+    let p = point.pop().unwrap_or(f64::NAN);
+    (point, p)
 }
 
 /// An earlier sample as the latest sees it.

@@ -13,7 +13,7 @@ use halfshaft_numerics::harmonics::HarmonicSet;
 use halfshaft_numerics::observer::Observer;
 
 use super::closing::comes_back;
-use super::predictor::{PREDICTED_FROM, Waypoint, bend};
+use super::predictor::{PREDICTED_FROM, predicted};
 use super::problem::{Condition, Corrected, Failure, Metric, Problem};
 
 /// A response on a branch.
@@ -104,10 +104,6 @@ pub(crate) const LONGEST: f64 = 0.08;
 const SHORTEST: f64 = 1e-9;
 /// Highest order of harmonics that is tried.
 pub(crate) const MOST_HARMONICS: usize = 200;
-/// A last harmonic below this part of the tolerance is dropped.
-const SPARE: f64 = 0.01;
-/// The same for lines with kinks.
-const SPARE_AT_KINKS: f64 = 0.3;
 /// Samples of a branch that there is room for at first.
 const FIRST_ROOM: usize = 64;
 /// Harmonics that are always kept.
@@ -238,27 +234,6 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let truncation = self.problem.system.truncation;
         let metric = (metric.size, metric.span);
         Sample { set, u, p, tangent, tangent_p, metric, orientation, truncation }
-    }
-
-    /// Another set of harmonics where the tolerance asks for one.
-    fn adapted(&mut self, set: &HarmonicSet, u: &[f64]) -> Option<HarmonicSet> {
-        if self.settings.harmonics.is_some() {
-            return None;
-        }
-        let highest = set.highest();
-        let tolerance = self.settings.tolerance;
-        let truncation = self.problem.system.truncation;
-        if truncation > tolerance && highest < MOST_HARMONICS {
-            let more = 2.max(highest / 5).next_multiple_of(2);
-            return Some(set.up_to((highest + more).min(MOST_HARMONICS)));
-        }
-        self.exhausted |= truncation > tolerance;
-        // Where harmonics converge slowly a hundredth would take many more of them.
-        let spare = if self.problem.system.line.has_kinks() { SPARE_AT_KINKS } else { SPARE };
-        let enough = (truncation < spare * tolerance)
-            .then(|| enough(set, u, spare * tolerance * length(u)))
-            .filter(|enough| *enough < highest);
-        enough.map(|enough| set.up_to(enough))
     }
 
     /// Follows the curve from `start` in the direction of `sign` times its tangent.
@@ -408,52 +383,6 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let along = refit(&inside.set, &set, 1, &inside.tangent);
         self.finish_sample(set, u, border, &metric, Some((&along, inside.tangent_p))).ok()
     }
-}
-
-/// Where a step along a direction is expected to end.
-fn predicted(
-    recent: &[&Sample],
-    set: &HarmonicSet,
-    metric: &Metric,
-    step: f64,
-    (along, along_p): (&[f64], f64),
-) -> (Vec<f64>, f64) {
-    let whole = |from: &HarmonicSet, u: &[f64], p: f64| {
-        let mut whole = refit(from, set, 1, u);
-        whole.push(p);
-        whole
-    };
-    let waypoint = |sample: &&Sample| Waypoint {
-        place: whole(&sample.set, &sample.u, sample.p),
-        direction: whole(&sample.set, &sample.tangent, sample.tangent_p),
-    };
-    let list: Vec<Waypoint> = recent.iter().map(waypoint).collect();
-    let along = whole(set, along, along_p);
-    let Some(last) = list.first() else { return (Vec::new(), f64::NAN) };
-    let mut point: Vec<f64> = last.place.iter().zip(&along).map(|(x, t)| x + step * t).collect();
-    let m = along.len() - 1;
-    let dot = |a: &[f64], b: &[f64]| metric.dot((&a[..m], a[m]), (&b[..m], b[m]));
-    bend(&list, &dot, step, &along, &mut point);
-    let p = point.pop().unwrap_or(f64::NAN);
-    (point, p)
-}
-
-/// The lowest highest order beyond which the coefficients of no node are longer than `rest`.
-fn enough(set: &HarmonicSet, u: &[f64], rest: f64) -> usize {
-    let m = set.coefficients();
-    let (mut highest, step) = (set.highest(), if set.is_odd() { 2 } else { 1 });
-    let mut beyond = vec![0.0; u.len() / m];
-    while highest >= LEAST_HARMONICS + step {
-        let Some(place) = set.place_of(highest) else { break };
-        for (sum, node) in beyond.iter_mut().zip(u.chunks_exact(m)) {
-            *sum += node[place] * node[place] + node[place + 1] * node[place + 1];
-        }
-        if beyond.iter().any(|sum| sum.sqrt() >= rest) {
-            break;
-        }
-        highest -= step;
-    }
-    highest
 }
 
 /// Coefficients of all nodes over another set of harmonics.

@@ -15,6 +15,7 @@ mod fixed;
 mod kernel;
 mod large;
 mod pattern;
+mod sized;
 mod symmetric;
 mod system;
 

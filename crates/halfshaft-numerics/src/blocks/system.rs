@@ -2,6 +2,7 @@
 
 use super::kernel::{factorise, solve, solve_transposed, subtract_product, subtract_transposed};
 use super::pattern::Pattern;
+use super::sized::{Work, sized};
 use crate::error::Error;
 
 /// A bordered block system being assembled. Vectors have the `m` entries of each node after those
@@ -202,41 +203,6 @@ impl BlockSystem {
         self.columns.copy_from_slice(&other.columns);
         self.rows.copy_from_slice(&other.rows);
         self.corner.copy_from_slice(&other.corner);
-    }
-}
-
-/// Work on blocks of order `M` with one border, `R` together; of any where both are 0.
-trait Work {
-    type Output;
-    fn run<const M: usize, const R: usize>(self) -> Self::Output;
-}
-
-/// Work on blocks of one order, as what runs with the widest instructions of the processor.
-struct OfOrder<W, const M: usize, const R: usize>(W);
-
-impl<W: Work, const M: usize, const R: usize> pulp::NullaryFnOnce for OfOrder<W, M, R> {
-    type Output = W::Output;
-
-    #[inline(always)]
-    fn call(self) -> Self::Output {
-        self.0.run::<M, R>()
-    }
-}
-
-/// Does work on blocks of an order, which is known to the compiler where blocks are small.
-fn sized<W: Work>(order: usize, work: W) -> W::Output {
-    let arch = pulp::Arch::new();
-    match order {
-        2 => arch.dispatch(OfOrder::<W, 2, 3>(work)),
-        3 => arch.dispatch(OfOrder::<W, 3, 4>(work)),
-        4 => arch.dispatch(OfOrder::<W, 4, 5>(work)),
-        6 => arch.dispatch(OfOrder::<W, 6, 7>(work)),
-        7 => arch.dispatch(OfOrder::<W, 7, 8>(work)),
-        8 => arch.dispatch(OfOrder::<W, 8, 9>(work)),
-        9 => arch.dispatch(OfOrder::<W, 9, 10>(work)),
-        10 => arch.dispatch(OfOrder::<W, 10, 11>(work)),
-        12 => arch.dispatch(OfOrder::<W, 12, 13>(work)),
-        _ => arch.dispatch(OfOrder::<W, 0, 0>(work)),
     }
 }
 

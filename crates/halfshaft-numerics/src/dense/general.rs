@@ -32,10 +32,13 @@ pub fn eigenvalues(matrix: &Matrix) -> Result<Vec<Complex>, Error> {
         [a] => vec![Complex::from(a)],
         [a, b, c, d] => two_by_two(a, b, c, d).to_vec(),
         _ => {
-            let own = match matrix.rows() {
-                ..=small::MOST => small::eigenvalues(matrix),
-                ..=middle::MOST => middle::eigenvalues(matrix),
-                _ => None,
+            let order = matrix.rows();
+            let own = if order <= small::MOST {
+                small::eigenvalues(matrix)
+            } else if order <= middle::MOST {
+                middle::eigenvalues(matrix)
+            } else {
+                None
             };
             match own {
                 Some(values) => values,

@@ -78,7 +78,7 @@ impl<const FUSED: bool> pulp::NullaryFnOnce for Work<'_, FUSED> {
     fn call(self) -> Self::Output {
         let Self(mut square) = self;
         square.balance();
-        square.to_hessenberg::<FUSED>();
+        square.reduce::<FUSED>();
         square.values::<FUSED>()
     }
 }
@@ -94,17 +94,16 @@ impl Square<'_> {
         self.rows[row * self.stride + column] = value;
     }
 
-    /// Zeros below the subdiagonal.
+    /// To Hessenberg form: zeros below the subdiagonal.
     #[inline(always)]
-    fn to_hessenberg<const FUSED: bool>(&mut self) {
+    fn reduce<const FUSED: bool>(&mut self) {
         let (order, stride) = (self.order, self.stride);
         // The reflection `1 - v wᵀ`, what it takes from the left and from the right.
         let mut v = vec![0.0; stride];
         let (mut w, mut left, mut right) = (v.clone(), v.clone(), v.clone());
         for column in 0..order.saturating_sub(2) {
-            for at in column + 1..order {
-                v[at] = self.at(at, column);
-            }
+            let below = self.rows.iter().skip((column + 1) * stride + column).step_by(stride);
+            v[column + 1..order].iter_mut().zip(below).for_each(|(v, x)| *v = *x);
             v[..=column].fill(0.0);
             let Some(scale) = reflection(&mut v[column + 1..order]) else { continue };
             w.iter_mut().zip(&v).for_each(|(w, v)| *w = scale * v);
