@@ -161,7 +161,7 @@ FIFTY = Case(
     "fifty", "Chain of fifty, 49 nonlinear shafts", "chain-of-fifty.toml", chain(50),
     0.88, 1.1, 0.98, 0.98, False, 0.05, "inertia 50.angle", {49: 1.0},
     (Reference("sample", 0.96, 3.0701139596), Reference("sample", 1.0, 3.1888430948)),
-    auto=(AutoSettings("fast", 10, 4, 3.0, 100),),
+    auto=(AutoSettings("accurate", 15, 4, 3.0, 100), AutoSettings("fast", 10, 4, 3.0, 100)),
     pyharm=(PyharmSettings((1, 3, 5), 32, 1.0),), points=80)
 
 CURVES = (DUFFING, HARDENING_CASE, FOLDS, ABSORBER_CASE, TEN, FIFTY)

@@ -63,6 +63,11 @@ fn layers(criterion: &mut Criterion) {
         group.bench_function("newton step", |bencher| bencher.iter(|| equations.newton_step()));
         group.bench_function("orbit", |bencher| bencher.iter(|| equations.orbit()));
         group.bench_function("stability", |bencher| bencher.iter(|| equations.stability()));
+        if equations.stabilities().is_some() {
+            group.bench_function("stability of 8", |bencher| {
+                bencher.iter(|| equations.stabilities());
+            });
+        }
         group.sample_size(10);
         group.bench_function("seeds", |bencher| bencher.iter(|| layers.seeds()));
         group.bench_function("branch", |bencher| bencher.iter(|| layers.branch()));
