@@ -8,7 +8,7 @@ use halfshaft_results::SpecialKind;
 
 use super::fold_points::{b_span, dot, inner, is_near, norm, returns, reversed, sides};
 use super::fold_system::{FoldSample, FoldSystem};
-use super::predictor::{PREDICTED_FROM, Waypoint, bend};
+use super::predictor::{PREDICTED_FROM, Waypoint, ahead, joined};
 use super::problem::Failure;
 use super::tracer::{Counted, MOST_HARMONICS, length, refit};
 
@@ -68,35 +68,30 @@ fn unit(x: &[f64]) -> Vec<f64> {
     x.iter().map(|x| x / size).collect()
 }
 
-/// Where a step along a direction from the latest of the recent samples is expected to end, `straight`
-/// where nothing more is known.
+/// Where a step along a direction from the latest of the recent samples is expected to end.
 fn predicted(
     recent: &[&FoldSample],
-    straight: &Point,
+    set: &HarmonicSet,
     along: &Point,
     spans: [f64; 3],
     step: f64,
 ) -> Point {
-    let Some(set) = recent.first().map(|last| &last.set) else { return straight.clone() };
-    let whole = |from: &HarmonicSet, (u, frequency, parameter): (&[f64], f64, f64)| {
-        let mut whole = refit(from, set, 1, u);
-        whole.extend([frequency, parameter]);
-        whole
-    };
-    let waypoint = |sample: &&FoldSample| Waypoint {
-        place: whole(&sample.set, (&sample.u, sample.frequency, sample.parameter)),
-        direction: whole(&sample.set, (&sample.tangent.0, sample.tangent.1, sample.tangent.2)),
+    let waypoint = |sample: &&FoldSample| {
+        let (along, along_frequency, along_parameter) = &sample.tangent;
+        let place = [sample.frequency, sample.parameter];
+        Waypoint {
+            place: joined(&sample.set, set, &sample.u, &place),
+            direction: joined(&sample.set, set, along, &[*along_frequency, *along_parameter]),
+        }
     };
     let list: Vec<Waypoint> = recent.iter().map(waypoint).collect();
-    let along = whole(set, (&along.0, along.1, along.2));
-    let mut point = whole(set, (&straight.0, straight.1, straight.2));
+    let along = joined(set, set, &along.0, &[along.1, along.2]);
     let m = along.len() - 2;
     let dot =
         |a: &[f64], b: &[f64]| inner((&a[..m], a[m], a[m + 1]), (&b[..m], b[m], b[m + 1]), spans);
-    bend(&list, &dot, step, &along, &mut point);
-    let (frequency, parameter) = (point[m], point[m + 1]);
-    point.truncate(m);
-    (point, frequency, parameter)
+    let mut point = ahead(&list, &dot, step, &along);
+    let ends = point.split_off(m);
+    (point, ends[0], ends[1])
 }
 
 impl FoldTracer<'_, '_> {
@@ -219,7 +214,7 @@ impl FoldTracer<'_, '_> {
         let mut row = weighted((&along.0, along.1, along.2), spans);
         let target = dot(&row, &straight);
         let mut borders = (unit(&last.w), unit(&last.v));
-        let mut point = predicted(recent, &straight, &along, spans, step);
+        let mut point = predicted(recent, &set, &along, spans, step);
         let r = (row.0.as_slice(), row.1, row.2);
         self.counted.iterations +=
             self.system.correct(&mut point, (&borders.0, &borders.1), r, target, spans)?;

@@ -12,6 +12,7 @@ use halfshaft_numerics::observer::Silent;
 use super::answer::Setting;
 use super::branches::Job;
 use super::problem::{Axis, Problem};
+use super::side_by_side::ORBITS;
 use super::stability::Judge;
 use super::system::{HarmonicSystem, Place};
 use super::tracer::{Counted, Sample, Tracer, length};
@@ -128,12 +129,12 @@ impl Equations {
         found.map_or(0, |stability| stability.multipliers.len())
     }
 
-    /// The same of eight copies of the response, which a small line is asked for at once; `None` for
+    /// The same of as many copies of the response as lanes hold, which a small line is asked for at once; `None` for
     /// another.
     pub fn stabilities(&self) -> Option<usize> {
-        let copies = vec![(black_box(&self.u[..]), self.place); 8];
+        let copies = vec![(black_box(&self.u[..]), self.place); ORBITS];
         let all = self.judge.stabilities(&self.problem.system, &copies)?;
-        Some(all.iter().map(|stability| stability.multipliers.len()).sum())
+        Some(all.iter().flatten().map(|stability| stability.multipliers.len()).sum())
     }
 }
 

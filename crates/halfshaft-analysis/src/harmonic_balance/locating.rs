@@ -129,16 +129,16 @@ impl Tracer<'_, '_> {
     pub(super) fn judge_all(&mut self, judge: &mut Judge, samples: &[Sample]) -> Vec<Stability> {
         let mut all = Vec::with_capacity(samples.len());
         for run in samples.chunk_by(|a, b| a.set == b.set) {
-            let together = self.judge_together(judge, run);
-            all.extend(together.unwrap_or_else(|| {
-                let one = |sample| self.judge(judge, sample).unwrap_or_default();
-                run.iter().map(one).collect()
-            }));
+            let together = self.judge_together(judge, run).unwrap_or_else(|| vec![None; run.len()]);
+            for (sample, known) in run.iter().zip(together) {
+                let one = || self.judge(judge, sample).unwrap_or_default();
+                all.push(known.unwrap_or_else(one));
+            }
         }
         all
     }
 
-    fn judge_together(&mut self, judge: &Judge, run: &[Sample]) -> Option<Vec<Stability>> {
+    fn judge_together(&mut self, judge: &Judge, run: &[Sample]) -> Option<Vec<Option<Stability>>> {
         let first = run.first()?;
         if self.shoots() || matches!(self.problem.axis, Axis::Parameter(_)) {
             return None;

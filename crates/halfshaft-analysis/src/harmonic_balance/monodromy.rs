@@ -7,7 +7,7 @@
 //! (k+1)(k+2) M q_{k+2} = -Σ_e w_e [ Σ_j k_j x_{k-j} + Σ_j c_j (k-j+1) x_{k-j+1} ] - (k+1) D q_{k+1}
 //! ```
 //!
-//! for panels of columns of the monodromy matrix, to degree 20 or 32, with the step that keeps the last terms
+//! for panels of columns of the monodromy matrix, to degree 20 or 40, with the step that keeps the last terms
 //! at rounding in all of them. Steps end where a twist passes from one piece of its law to another. The
 //! rigid-body angle of a free line is left out (its multiplier is 1 whatever happens), and so is its
 //! speed unless dampers to ground couple it. An orbit that mirrors itself after half a period needs
@@ -92,20 +92,23 @@ impl Variational {
         sorted_spectrum(&self.monodromy(equations, orbit, end)?)
     }
 
-    /// The same of many orbits, all over the same harmonics; `None` for a line whose orbits are taken
-    /// one by one.
+    /// The same of many orbits, all over the same harmonics, `None` for those to be taken one by one;
+    /// `None` for a line of which that is all.
     pub(super) fn multipliers_of_all(
         &self,
         equations: &EquationsOfMotion,
         orbits: &[Orbit<'_>],
-    ) -> Option<Vec<Vec<Complex>>> {
+    ) -> Option<Vec<Option<Vec<Complex>>>> {
         let side_by_side = self.side_by_side.as_ref()?;
         let turn = std::f64::consts::TAU;
         let mut all = Vec::with_capacity(orbits.len());
         for few in orbits.chunks(ORBITS) {
             let end = if few[0].set.is_odd() { 0.5 * turn } else { turn };
-            for matrix in side_by_side.monodromy(equations, few, end)? {
-                all.push(sorted_spectrum(&matrix).ok()?);
+            // One alone is faster by itself.
+            let several = (few.len() > 1).then_some(few);
+            match several.and_then(|few| side_by_side.monodromy(equations, few, end)) {
+                Some(list) => all.extend(list.iter().map(|matrix| sorted_spectrum(matrix).ok())),
+                None => all.extend(few.iter().map(|_| None)),
             }
         }
         Some(all)
@@ -223,7 +226,15 @@ impl Variational {
 }
 
 /// Eigenvalues, largest modulus first.
+///
+/// # Errors
+/// Where the matrix is not finite: changes grew beyond all numbers.
 fn sorted_spectrum(matrix: &Matrix) -> Result<Vec<Complex>, halfshaft_numerics::Error> {
+    if matrix.as_slice().iter().any(|entry| !entry.is_finite()) {
+        return Err(halfshaft_numerics::Error::EigenvaluesNotConverged {
+            dimension: matrix.rows(),
+        });
+    }
     let mut values = spectrum(matrix)?;
     values.sort_by(|a, b| b.modulus().total_cmp(&a.modulus()));
     Ok(values)

@@ -23,7 +23,7 @@ pub(super) struct Waypoint {
 /// Moves a prediction along the tangent `along` (of unit length under `dot`) to the polynomial through the
 /// last samples, the latest first, that has the directions of all: of third degree for two, of fifth for
 /// three. Its variable is the way along the tangent, by which the next sample is found.
-pub(super) fn bend(
+fn bend(
     recent: &[Waypoint],
     dot: &dyn Fn(&[f64], &[f64]) -> f64,
     step: f64,
@@ -73,24 +73,42 @@ pub(super) fn predicted(
     step: f64,
     (along, along_p): (&[f64], f64),
 ) -> (Vec<f64>, f64) {
-    let whole = |from: &HarmonicSet, u: &[f64], p: f64| {
-        let mut whole = refit(from, set, 1, u);
-        whole.push(p);
-        whole
-    };
     let waypoint = |sample: &&Sample| Waypoint {
-        place: whole(&sample.set, &sample.u, sample.p),
-        direction: whole(&sample.set, &sample.tangent, sample.tangent_p),
+        place: joined(&sample.set, set, &sample.u, &[sample.p]),
+        direction: joined(&sample.set, set, &sample.tangent, &[sample.tangent_p]),
     };
     let list: Vec<Waypoint> = recent.iter().map(waypoint).collect();
-    let along = whole(set, along, along_p);
-    let Some(last) = list.first() else { return (Vec::new(), f64::NAN) };
-    let mut point: Vec<f64> = last.place.iter().zip(&along).map(|(x, t)| x + step * t).collect();
+    let along = joined(set, set, along, &[along_p]);
     let m = along.len() - 1;
     let dot = |a: &[f64], b: &[f64]| metric.dot((&a[..m], a[m]), (&b[..m], b[m]));
-    bend(&list, &dot, step, &along, &mut point);
+    let mut point = ahead(&list, &dot, step, &along);
     let p = point.pop().unwrap_or(f64::NAN);
     (point, p)
+}
+
+/// Coefficients over another set of harmonics with parameters behind them.
+pub(super) fn joined(
+    from: &HarmonicSet,
+    to: &HarmonicSet,
+    u: &[f64],
+    parameters: &[f64],
+) -> Vec<f64> {
+    let mut whole = refit(from, to, 1, u);
+    whole.extend_from_slice(parameters);
+    whole
+}
+
+/// The point a step ahead of the first waypoint: along the tangent, and bent.
+pub(super) fn ahead(
+    list: &[Waypoint],
+    dot: &dyn Fn(&[f64], &[f64]) -> f64,
+    step: f64,
+    along: &[f64],
+) -> Vec<f64> {
+    let Some(last) = list.first() else { return Vec::new() };
+    let mut point: Vec<f64> = last.place.iter().zip(along).map(|(x, t)| x + step * t).collect();
+    bend(list, dot, step, along, &mut point);
+    point
 }
 
 /// An earlier sample as the latest sees it.

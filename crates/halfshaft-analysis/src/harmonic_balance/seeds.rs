@@ -13,8 +13,9 @@ use halfshaft_numerics::observer::Observer;
 use super::line::Line;
 use super::passages::passages;
 use super::problem::{Axis, Problem};
+use super::segment::Segment;
 use super::system::{HarmonicSystem, Place};
-use super::tracer::{Counted, TraceSettings, Tracer, work_of};
+use super::tracer::{Counted, Sample, TraceSettings, Tracer, work_of};
 
 /// A guess at a response: coefficients of the kept groups over a set.
 #[derive(Clone, Debug)]
@@ -33,6 +34,8 @@ const LAST_DRIVE: f64 = 20.0;
 /// nodes more than ten.
 const MOST_SAMPLES: usize = 300;
 const LEAST_MOST_SAMPLES: usize = 60;
+/// Halvings by which a response near one in quadrature is closed in on.
+const HALVINGS: usize = 20;
 /// First and longest step over the drive, relative to the response.
 const FIRST: f64 = 1.0;
 const LONGEST: f64 = 2.0;
@@ -101,7 +104,7 @@ pub(super) fn drive_curve(
         tolerance: 1.0,
         harmonics: Some(set.highest()),
         miss: ROUGH,
-        // Without torque there is nothing but rest.
+        // With damping no torque moves nothing but rest.
         floored: true,
         // Weak responses grow with the drive: nothing bends there.
         first: FIRST,
@@ -126,30 +129,49 @@ pub(super) fn drive_curve(
             let found = passages(&mut tracer, &pair[0], &pair[1]);
             curve.seeds.extend(found.into_iter().map(|u| Seed { set: set.clone(), u }));
         }
-        // At one speed the torques of drive 1 are the same all along.
-        let torques = tracer.problem.system.by_drive.clone();
         let mut sides = Vec::with_capacity(orders.len());
         for &order in orders {
-            let reactive: Vec<f64> =
-                samples.iter().map(|sample| reactive(set, &torques, &sample.u, order)).collect();
-            sides.push(reactive[0]);
-            let pairs = samples.windows(2).zip(reactive.windows(2));
-            for (pair, values) in pairs.filter(|(_, values)| values[0] * values[1] < 0.0) {
-                let part = values[0] / (values[0] - values[1]);
-                let mix = |(a, b): (&f64, &f64)| a + part * (b - a);
-                curve.quadratures.push(Quadrature {
-                    order,
-                    u: pair[0].u.iter().zip(&pair[1].u).map(mix).collect(),
-                    frequency,
-                    drive: mix((&pair[0].p, &pair[1].p)),
-                });
-            }
+            let (side, mut met) = quadratures(&mut tracer, &samples, order);
+            sides.push(side);
+            curve.quadratures.append(&mut met);
         }
         curve.first = Some((sides, samples[0].u.clone()));
     }
     counted.iterations += tracer.counted.iterations;
     counted.steps += tracer.counted.steps;
     curve
+}
+
+/// Reactive work of the torques of an order at the first sample, and where it is zero between samples.
+fn quadratures(
+    tracer: &mut Tracer<'_, '_>,
+    samples: &[Sample],
+    order: usize,
+) -> (f64, Vec<Quadrature>) {
+    let set = &samples[0].set;
+    // At one speed the torques of drive 1 are the same all along.
+    let torques = tracer.problem.system.by_drive.clone();
+    let frequency = tracer.problem.place.frequency;
+    let work = |u: &[f64]| reactive(set, &torques, u, order);
+    let works: Vec<f64> = samples.iter().map(|sample| work(&sample.u)).collect();
+    let pairs = samples.windows(2).zip(works.windows(2));
+    let met = pairs.filter(|(_, works)| works[0] * works[1] < 0.0).map(|(pair, works)| {
+        let segment = Segment::new(tracer, (&pair[0], &pair[1]), set);
+        let (u, drive) = without_work(&segment, works[0], &work);
+        Quadrature { order, u, frequency, drive }
+    });
+    let met = met.collect();
+    (works[0], met)
+}
+
+/// Where work of which the first end of a segment does `first` is zero on its cubic.
+fn without_work(segment: &Segment, first: f64, work: &dyn Fn(&[f64]) -> f64) -> (Vec<f64>, f64) {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        if work(&segment.guess(middle).0) * first > 0.0 { low = middle } else { high = middle }
+    }
+    segment.guess(low)
 }
 
 /// Reactive work of the torques of an order, up to a positive factor: zero in phase resonance.

@@ -129,7 +129,7 @@ impl Tracer<'_, '_> {
             Some(sample) => (refit(&sample.set, &segment.set, 1, &sample.u), sample.p),
             None => segment.guess(part),
         };
-        self.use_set(&segment.set, &mut u, &segment.set);
+        self.choose(&segment.set);
         let condition = segment.condition(part);
         let done = self.problem.correct(&mut u, &mut p, &condition, &segment.metric)?;
         self.counted.iterations += done.iterations;

@@ -121,13 +121,13 @@ impl Judge {
 }
 
 impl Judge {
-    /// The stability of many responses over the harmonics of `system`; `None` where they are found one
-    /// by one.
+    /// The stability of many responses over the harmonics of `system`, `None` for those to be found one
+    /// by one; `None` where that is all of them.
     pub(super) fn stabilities(
         &self,
         system: &HarmonicSystem,
         responses: &[(&[f64], Place)],
-    ) -> Option<Vec<Stability>> {
+    ) -> Option<Vec<Option<Stability>>> {
         if self.method != StabilityMethod::Monodromy {
             return None;
         }
@@ -137,7 +137,8 @@ impl Judge {
             orbits.push(Orbit { set: &system.set, speed: system.fundamental(*place), twists });
         }
         let all = self.variational.multipliers_of_all(&system.line.equations, &orbits)?;
-        Some(all.into_iter().map(|raw| Stability::of(raw, system.set.is_odd())).collect())
+        let of = |raw| Stability::of(raw, system.set.is_odd());
+        Some(all.into_iter().map(|raw| raw.map(of)).collect())
     }
 }
 

@@ -4,7 +4,8 @@ use halfshaft_dynamics::EquationsOfMotion;
 
 use super::panels::Tangent;
 
-/// Powers of time of which the springs are one pass over the twists.
+/// Powers of time of which the springs are one pass over the twists; what they do is written out for
+/// four.
 pub(super) const BLOCK: usize = 4;
 
 /// Coordinates of the variational equation, and its recurrence in them.

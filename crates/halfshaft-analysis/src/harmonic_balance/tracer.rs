@@ -1,6 +1,6 @@
 //! Branches of responses by pseudo-arclength continuation.
 //!
-//! Each step predicts along the curve (tangent and curvature of the last two samples), corrects by
+//! Each step predicts along the curve (by the polynomial through the last samples), corrects by
 //! Newton's method in the plane across the tangent, and measures how far the tangent alone would have
 //! missed: that error steers the step, so that samples lie dense where the curve bends. Lengths are
 //! relative to the size of the present response and to the width of the range, so nothing needs
@@ -83,10 +83,11 @@ pub(crate) struct TraceSettings {
     pub(crate) harmonics: Option<usize>,
     /// Miss of the tangent that is aimed at, in the metric.
     pub(crate) miss: f64,
-    /// Whether no curve passes the low end of the range: a step beyond it was too long.
+    /// Whether long steps that lead below the range are taken for jumps to another curve.
     pub(crate) floored: bool,
-    /// First and longest step, in the metric.
+    /// First step, in the metric.
     pub(crate) first: f64,
+    /// Longest step.
     pub(crate) longest: f64,
     /// Samples of a branch at most, those of many harmonics counted for more than one.
     pub(crate) most_samples: usize,
@@ -102,6 +103,8 @@ pub(crate) const FIRST: f64 = 0.02;
 pub(crate) const LONGEST: f64 = 0.08;
 /// Shortest step, in the metric.
 const SHORTEST: f64 = 1e-9;
+/// A step no longer than this stays on its curve, in the metric.
+const SURELY_ON: f64 = 0.05;
 /// Highest order of harmonics that is tried.
 pub(crate) const MOST_HARMONICS: usize = 200;
 /// Samples of a branch that there is room for at first.
@@ -189,7 +192,7 @@ impl<'t, 'f> Tracer<'t, 'f> {
         p: f64,
     ) -> Result<Sample, Failure> {
         let mut u = guess.to_vec();
-        self.use_set(&set.clone(), &mut u, set);
+        self.choose(set);
         self.counted.seeds += 1;
         let mut set = set.clone();
         for _ in 0..MOST_HARMONICS {
@@ -292,7 +295,8 @@ impl<'t, 'f> Tracer<'t, 'f> {
         loop {
             self.counted.steps += 1;
             let tried = self.try_step(&recent, *step, set).and_then(|(next, miss)| {
-                let below = self.settings.floored && next.p <= self.settings.range.0;
+                let long = self.settings.floored && *step > SURELY_ON;
+                let below = long && next.p <= self.settings.range.0;
                 if below { Err(Failure::NotConverged) } else { Ok((next, miss)) }
             });
             match tried {
@@ -375,8 +379,7 @@ impl<'t, 'f> Tracer<'t, 'f> {
         let inner = refit(&inside.set, &set, 1, &inside.u);
         let mut u: Vec<f64> =
             inner.iter().zip(&outside.u).map(|(a, b)| a + part * (b - a)).collect();
-        let mut same = u.clone();
-        self.use_set(&set, &mut same, &set);
+        self.choose(&set);
         let metric = self.metric(&u);
         self.problem.at(&mut u, border, metric.size).ok()?;
         let metric = self.metric(&u);

@@ -1,6 +1,7 @@
 //! Work on blocks whose order the compiler knows where they are small.
 
-/// Work on blocks of order `M` with one border, `R` together; of any where both are 0.
+/// Work on blocks of order `M` with one border, where `R` is `M + 1`, the order of the last block with
+/// it; on any blocks where both are 0.
 pub(super) trait Work {
     type Output;
     fn run<const M: usize, const R: usize>(self) -> Self::Output;

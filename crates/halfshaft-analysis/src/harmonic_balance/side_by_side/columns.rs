@@ -11,6 +11,8 @@ use super::{Lane, ORBITS, TERMS, TRUNCATION};
 /// The columns of all matrices at one phase, `C` in a panel.
 pub(super) struct Columns<const C: usize> {
     pub(super) tangents: Vec<Tangent>,
+    /// One over the fundamental frequencies.
+    pub(super) inverse: Lane,
     /// Coefficients of the coordinates: panel, power, coordinate, column.
     coordinates: Rows<ORBITS>,
     /// Of the twists of the panel at hand: connection, power, column.
@@ -25,7 +27,7 @@ pub(super) struct Columns<const C: usize> {
 }
 
 impl<const C: usize> Columns<C> {
-    pub(super) fn new(line: &WholeLine<'_>, tangents: Vec<Tangent>) -> Self {
+    pub(super) fn new(line: &WholeLine<'_>, tangents: Vec<Tangent>, inverse: Lane) -> Self {
         let equations = line.equations();
         let (groups, columns) = (line.coordinates(), line.columns());
         let panels = columns.div_ceil(C);
@@ -36,7 +38,6 @@ impl<const C: usize> Columns<C> {
                 coordinates[first + at * C] = [*value; ORBITS];
             }
         });
-        let inverse = tangents.first().map_or([0.0; ORBITS], |tangent| tangent.inverse);
         let body = |(m, d): (&f64, &f64)| (1.0 / m, inverse.map(|inverse| d * inverse));
         let bodies = equations.inertia.iter().zip(&equations.ground_damping).map(body).collect();
         let ends = equations.connections.iter();
@@ -45,6 +46,7 @@ impl<const C: usize> Columns<C> {
             twists: Rows::zeros(tangents.len() * TERMS * C),
             net: Rows::zeros(groups * C),
             tangents,
+            inverse,
             coordinates,
             bodies,
             ends,

@@ -31,7 +31,7 @@ pub(super) const ORBITS: usize = 8;
 type Lane = [f64; ORBITS];
 /// Columns from which on a line fills the processor by itself.
 const MANY: usize = 8;
-/// Steps a period at most.
+/// Steps of the way to `end` at most.
 const MOST_STEPS: usize = 400;
 /// How far the series go.
 const TRUNCATION: Truncation = Truncation::SHORT;
@@ -69,6 +69,7 @@ impl SideBySide {
         orbits: &[Orbit<'_>],
         end: f64,
     ) -> Option<Vec<Matrix>> {
+        orbits.first()?;
         let line = WholeLine::new(equations);
         if line.columns() <= 2 {
             self.run::<2>(equations, &line, orbits, end)
@@ -84,8 +85,11 @@ impl SideBySide {
         orbits: &[Orbit<'_>],
         end: f64,
     ) -> Option<Vec<Matrix>> {
-        let mut columns = Columns::<C>::new(line, self.tangents(equations, orbits));
-        let waves = Waves::new(orbits.first()?.set);
+        let of = |lane: usize| orbits.get(lane).unwrap_or(&orbits[0]);
+        let inverse: Lane = std::array::from_fn(|lane| 1.0 / of(lane).speed);
+        let tangents = self.tangents(equations, orbits, &inverse);
+        let mut columns = Columns::<C>::new(line, tangents, inverse);
+        let waves = Waves::new(orbits[0].set);
         let arch = pulp::Arch::new();
         let state = &mut columns;
         if matches!(arch, pulp::Arch::Scalar) {
@@ -97,9 +101,13 @@ impl SideBySide {
     }
 
     /// What the connections oppose to changes, the lanes that are left over as copies of the first.
-    fn tangents(&self, equations: &EquationsOfMotion, orbits: &[Orbit<'_>]) -> Vec<Tangent> {
+    fn tangents(
+        &self,
+        equations: &EquationsOfMotion,
+        orbits: &[Orbit<'_>],
+        inverse: &Lane,
+    ) -> Vec<Tangent> {
         let of = |lane: usize| orbits.get(lane).unwrap_or(&orbits[0]);
-        let inverse: Lane = std::array::from_fn(|lane| 1.0 / of(lane).speed);
         let connections = equations.connections.iter().zip(&self.laws).enumerate();
         let tangent = |(index, (connection, law)): (usize, (_, &Option<Piece>))| {
             let connection: &halfshaft_dynamics::Connection = connection;
@@ -120,7 +128,6 @@ impl SideBySide {
                 terms: if law.is_some() { TERMS } else { 1 },
                 stiffness,
                 damping: inverse.map(|inverse| connection.damping * inverse),
-                inverse,
             }
         };
         connections.map(tangent).collect()
@@ -144,11 +151,12 @@ impl<const C: usize, const FUSED: bool> pulp::NullaryFnOnce for Period<'_, '_, C
         let Self { columns, orbits, mut waves, end } = self;
         let panels = columns.columns.div_ceil(C);
         let (mut x, mut store) = (Rows::<ORBITS>::zeros(TERMS), Rows::<ORBITS>::zeros(TERMS));
+        let scale = columns.inverse.map(|inverse| inverse * inverse);
         let mut phase = 0.0;
         for _ in 0..MOST_STEPS {
             waves.about(orbits[0].set, 1.0, phase, TRUNCATION.degree);
             for tangent in &mut columns.tangents {
-                tangent.expand::<FUSED>(&waves, &orbits[0], &mut x, &mut store);
+                tangent.expand::<FUSED>(&waves, &orbits[0], (&scale, &mut x, &mut store));
             }
             for panel in 0..panels {
                 columns.recur::<FUSED>(panel);

@@ -17,20 +17,17 @@ pub(super) struct Tangent {
     pub(super) stiffness: Rows<ORBITS>,
     pub(super) terms: usize,
     pub(super) damping: Lane,
-    /// One over the fundamental frequencies.
-    pub(super) inverse: Lane,
 }
 
 impl Tangent {
-    /// Writes the stiffness `P'(x - origin)` along the twist about the phase of `waves`; `x` and
-    /// `store` have a row for each power.
+    /// Writes the stiffness `P'(x - origin)` along the twist about the phase of `waves`, times
+    /// `scale`, which is one over the square of the frequency; `x` and `store` have a row for each power.
     #[inline(always)]
     pub(super) fn expand<const FUSED: bool>(
         &mut self,
         waves: &Waves,
         orbit: &Orbit<'_>,
-        x: &mut [Lane],
-        store: &mut [Lane],
+        (scale, x, store): (&Lane, &mut [Lane], &mut [Lane]),
     ) {
         let Some(law) = &self.law else { return };
         waves.sums(orbit.set, &self.twist, x);
@@ -54,7 +51,6 @@ impl Tangent {
             }
             out[0] = out[0].map(|sum| sum + power as f64 * k);
         }
-        let scale: Lane = self.inverse.map(|inverse| inverse * inverse);
         for row in out {
             *row = std::array::from_fn(|lane| row[lane] * scale[lane]);
         }
