@@ -111,9 +111,3 @@ fn other_lines_are_taken_orbit_by_orbit() {
     let gap = super::lines::held(&keys(1.0, 0.05, "clearance = 0.2"), "amplitude = 0.1");
     assert!(refused(&gap));
 }
-
-#[test]
-fn of_an_inertia_without_a_shaft() {
-    let model = Model::new().inertia("a", 2.0, "damping = 0.04");
-    assert_the_same(&model.torque("drive", "a", "amplitude = 0.1").0, &HarmonicSet::odd(3));
-}
