@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 
-import halfshaft
 from halfshaft import Driveline, Record, Result
 
 K1, K3, DAMPING = 6420.0, -642.0, 90.0

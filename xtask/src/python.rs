@@ -33,6 +33,7 @@ const FOR_TESTS: &[&str] = &[
     // With the JavaScript engine that it needs, as a wheel too.
     "pyright[nodejs]==1.1.414",
     "pytest>=8",
+    "ruff==0.17.6",
     "tqdm>=4.60",
     "xarray>=2023.12",
 ];
@@ -46,12 +47,20 @@ pub fn run() -> Outcome {
     imports_alone(&folder, &wheel)?;
     let tests = environment(&folder.join("tests"), FOR_TESTS)?;
     install(&tests, &wheel)?;
+    names(&folder, &tests)?;
     types(&folder, &tests)?;
     let settings = root().join("pyproject.toml");
     // Not from the root, where Python would find the sources before the wheel.
     let mut suite = python(&tests, &folder, &["-m", "pytest", "-c"]);
     suite.arg(&settings).arg("--rootdir").arg(root()).arg(root().join("python/tests"));
     finish(&mut suite, "pytest")
+}
+
+/// Names that scripts use and do not have, those of the comparisons too, which no test runs.
+fn names(folder: &Path, tests: &Path) -> Outcome {
+    let rules = ["-m", "ruff", "check", "--isolated", "--no-cache", "--select", "F,E9"];
+    let mut ruff = python(tests, folder, &rules);
+    finish(ruff.arg(root().join("bench")).arg(root().join("python")), "ruff")
 }
 
 /// Types of the package as it is installed and of the examples, by both checkers.

@@ -5,7 +5,6 @@ and every case is linked to a program of its own, as AUTO's own command line doe
 Python layer, which would slow AUTO down, is left out.
 """
 
-import os
 import shutil
 import subprocess
 from dataclasses import dataclass, field
