@@ -5,8 +5,6 @@ use super::tracer::{Sample, Tracer, length};
 
 /// Halvings of the way between two samples.
 const HALVINGS: usize = 8;
-/// Halvings by which the cubic between two samples is searched.
-const SEARCHED: usize = 40;
 /// Part of the way between two samples by which the cubic may miss the curve.
 const MISSED: f64 = 0.2;
 /// A turn of the cubic this near to drive 1 may be one beyond it on the curve.
@@ -50,14 +48,12 @@ fn passage(
     let segment = Segment::new(tracer, (from, to), &from.set);
     let chord = apart(&from.u, &to.u);
     let below = from.p < 1.0;
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..SEARCHED {
-        let middle = f64::midpoint(low, high);
-        if (segment.parameter(middle) < 1.0) == below { low = middle } else { high = middle }
-    }
-    let guess = segment.guess(low).0;
-    if let Some(u) = at_full_drive(tracer, &guess, MISSED * chord).filter(is_new) {
-        return Some(u);
+    let part = Segment::zero(|part| segment.parameter(part) - 1.0);
+    let found = part.and_then(|part| {
+        at_full_drive(tracer, &segment.guess(part).0, MISSED * chord).filter(is_new)
+    });
+    if found.is_some() {
+        return found;
     }
     // The curve bends between them: halve the way, on the curve, until it does no more.
     let (mut low, mut high) = (0.0, 1.0);

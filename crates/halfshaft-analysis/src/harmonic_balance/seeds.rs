@@ -34,8 +34,6 @@ const LAST_DRIVE: f64 = 20.0;
 /// nodes more than ten.
 const MOST_SAMPLES: usize = 300;
 const LEAST_MOST_SAMPLES: usize = 60;
-/// Halvings by which a response near one in quadrature is closed in on.
-const HALVINGS: usize = 20;
 /// First and longest step over the drive, relative to the response.
 const FIRST: f64 = 1.0;
 const LONGEST: f64 = 2.0;
@@ -155,23 +153,14 @@ fn quadratures(
     let work = |u: &[f64]| reactive(set, &torques, u, order);
     let works: Vec<f64> = samples.iter().map(|sample| work(&sample.u)).collect();
     let pairs = samples.windows(2).zip(works.windows(2));
-    let met = pairs.filter(|(_, works)| works[0] * works[1] < 0.0).map(|(pair, works)| {
+    let changes = pairs.filter(|(_, works)| works[0] * works[1] < 0.0);
+    let met = changes.filter_map(|(pair, _)| {
         let segment = Segment::new(tracer, (&pair[0], &pair[1]), set);
-        let (u, drive) = without_work(&segment, works[0], &work);
-        Quadrature { order, u, frequency, drive }
+        let (u, drive) = segment.guess(Segment::zero(|part| work(&segment.guess(part).0))?);
+        Some(Quadrature { order, u, frequency, drive })
     });
     let met = met.collect();
     (works[0], met)
-}
-
-/// Where work of which the first end of a segment does `first` is zero on its cubic.
-fn without_work(segment: &Segment, first: f64, work: &dyn Fn(&[f64]) -> f64) -> (Vec<f64>, f64) {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        if work(&segment.guess(middle).0) * first > 0.0 { low = middle } else { high = middle }
-    }
-    segment.guess(low)
 }
 
 /// Reactive work of the torques of an order, up to a positive factor: zero in phase resonance.

@@ -1,9 +1,13 @@
 //! The curve between two samples of a branch, every response of it in a plane across their chord.
 
+use halfshaft_numerics::bracket::{RootSettings, find_root};
 use halfshaft_numerics::harmonics::HarmonicSet;
 
 use super::problem::{Condition, Failure, Metric};
 use super::tracer::{Sample, Tracer, refit};
+
+/// Part of the segment to which a zero on the cubic is closed in: the curve is further from it.
+const CLOSE: f64 = 1e-9;
 
 /// Two samples over one set of harmonics, with the chord between them.
 pub(super) struct Segment {
@@ -80,6 +84,12 @@ impl Segment {
         let (a, b, c) = (3.0 * twist, 2.0 * bend, self.from.along_p);
         let sum = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
         [sum / a, c / sum].into_iter().filter(|s| *s > 0.0 && *s < 1.0).collect()
+    }
+
+    /// Part at which a function of it that has opposite signs at the ends is zero.
+    pub(super) fn zero(function: impl FnMut(f64) -> f64) -> Option<f64> {
+        let settings = RootSettings { absolute_tolerance: CLOSE, ..RootSettings::default() };
+        find_root(function, 0.0, 1.0, settings).ok().map(|root| root.value)
     }
 
     /// Coefficients of the square and the cube of the part in that parameter.

@@ -65,23 +65,11 @@ impl Waves {
     /// The series of a twist with the given coefficients.
     #[inline(always)]
     pub(super) fn sum(&self, set: &HarmonicSet, coefficients: &[f64], out: &mut Series) {
-        out.fill(0.0);
-        let length = self.degree + 1;
-        for ((order, place), (cosines, sines)) in set.places().zip(&self.series) {
-            if order == 0 {
-                out[0] += coefficients[place];
-                continue;
-            }
-            let (a, b) = (coefficients[place], coefficients[place + 1]);
-            let waves = cosines[..length].iter().zip(&sines[..length]);
-            for (out, (cosine, sine)) in out[..length].iter_mut().zip(waves) {
-                *out += a * cosine + b * sine;
-            }
-        }
+        let (known, beyond) = out.split_at_mut(self.degree + 1);
+        beyond.fill(0.0);
+        self.sums::<1>(set, coefficients.as_chunks().0, known.as_chunks_mut().0);
     }
-}
 
-impl Waves {
     /// The series of several twists side by side, as many terms as `out` has rows.
     #[inline(always)]
     pub(super) fn sums<const N: usize>(

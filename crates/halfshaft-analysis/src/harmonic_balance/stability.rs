@@ -118,9 +118,7 @@ impl Judge {
         };
         Ok(Stability::of(raw, system.set.is_odd()))
     }
-}
 
-impl Judge {
     /// The stability of many responses over the harmonics of `system`, `None` for those to be found one
     /// by one; `None` where that is all of them.
     pub(super) fn stabilities(

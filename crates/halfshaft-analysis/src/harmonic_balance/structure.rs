@@ -56,7 +56,7 @@ pub(super) fn torque<const W: usize, const FUSED: bool>(
     for (k, x) in tangent.stiffness[..terms].iter().zip(twist[..=power].iter().rev()) {
         axpy::<W, FUSED>(*k, x, &mut torque);
     }
-    dampers::<W, FUSED>(tangent, twist, power, &mut torque);
+    dampers::<W, FUSED>(tangent, &twist[power + 1], &twist[..=power], &mut torque);
     torque
 }
 
@@ -105,23 +105,24 @@ pub(super) fn springs<const W: usize, const FUSED: bool>(
     [now, first, second, third]
 }
 
-/// Adds what the damper of a connection does at a power of time.
+/// Adds what the damper of a connection does at the power of time of the last of the twists that are
+/// `known` before the newest.
 #[inline(always)]
 pub(super) fn dampers<const W: usize, const FUSED: bool>(
     tangent: &Tangent,
-    twist: &[[f64; W]],
-    power: usize,
+    newest: &[f64; W],
+    known: &[[f64; W]],
     torque: &mut [f64; W],
 ) {
-    axpy::<W, FUSED>(tangent.damping[0] * (power + 1) as f64, &twist[power + 1], torque);
+    axpy::<W, FUSED>(known.len() as f64 * tangent.damping[0], newest, torque);
     if tangent.damping_terms > 1 {
-        resistance::<W, FUSED>(tangent, &twist[..=power], torque);
+        resistance::<W, FUSED>(tangent, known, torque);
     }
 }
 
 /// What the damper adds by the twists before the newest, power by power.
 #[inline(always)]
-pub(super) fn resistance<const W: usize, const FUSED: bool>(
+fn resistance<const W: usize, const FUSED: bool>(
     tangent: &Tangent,
     known: &[[f64; W]],
     torque: &mut [f64; W],

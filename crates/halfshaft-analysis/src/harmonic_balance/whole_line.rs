@@ -4,7 +4,7 @@ use halfshaft_dynamics::{Connection, EquationsOfMotion};
 
 use super::panels::{TERMS, Tangent};
 use super::series::INVERSE;
-use super::structure::{BLOCK, Structure, axpy, resistance, springs, sums, times, with_speed};
+use super::structure::{BLOCK, Structure, axpy, dampers, springs, sums, times, with_speed};
 
 /// The whole line: the columns are changes of the twists of its tree and of their rates.
 #[derive(Debug)]
@@ -86,10 +86,7 @@ impl<'e> WholeLine<'e> {
                     &mut torque,
                 );
             }
-            axpy::<W, FUSED>(next * tangent.damping[0], &newest, &mut torque);
-            if tangent.damping_terms > 1 {
-                resistance::<W, FUSED>(tangent, known, &mut torque);
-            }
+            dampers::<W, FUSED>(tangent, &newest, known, &mut torque);
             let torque = times(inverse, &torque);
             for joint in joints {
                 let angle = &mut later[joint.group];

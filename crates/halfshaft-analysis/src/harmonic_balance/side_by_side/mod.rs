@@ -85,9 +85,10 @@ impl SideBySide {
         orbits: &[Orbit<'_>],
         end: f64,
     ) -> Option<Vec<Matrix>> {
-        let of = |lane: usize| orbits.get(lane).unwrap_or(&orbits[0]);
-        let inverse: Lane = std::array::from_fn(|lane| 1.0 / of(lane).speed);
-        let tangents = self.tangents(equations, orbits, &inverse);
+        // Lanes that are left over are copies of the first.
+        let lanes = std::array::from_fn(|lane| orbits.get(lane).unwrap_or(&orbits[0]));
+        let inverse: Lane = lanes.map(|orbit| 1.0 / orbit.speed);
+        let tangents = self.tangents(equations, &lanes, &inverse);
         let mut columns = Columns::<C>::new(line, tangents, inverse);
         let waves = Waves::new(orbits[0].set);
         let arch = pulp::Arch::new();
@@ -100,25 +101,22 @@ impl SideBySide {
         Some((0..orbits.len()).map(|lane| columns.matrix(line, lane)).collect())
     }
 
-    /// What the connections oppose to changes, the lanes that are left over as copies of the first.
+    /// What the connections oppose to changes.
     fn tangents(
         &self,
         equations: &EquationsOfMotion,
-        orbits: &[Orbit<'_>],
+        lanes: &[&Orbit<'_>; ORBITS],
         inverse: &Lane,
     ) -> Vec<Tangent> {
-        let of = |lane: usize| orbits.get(lane).unwrap_or(&orbits[0]);
         let connections = equations.connections.iter().zip(&self.laws).enumerate();
         let tangent = |(index, (connection, law)): (usize, (_, &Option<Piece>))| {
             let connection: &halfshaft_dynamics::Connection = connection;
-            let twist = |lane: usize| {
-                of(lane).twists.iter().find(|(at, _)| *at == index).map(|(_, twist)| twist)
-            };
-            let law = law.as_ref().filter(|_| twist(0).is_some());
-            let count = if law.is_some() { of(0).set.coefficients() } else { 0 };
-            let coefficient = |at: usize| -> Lane {
-                std::array::from_fn(|lane| twist(lane).map_or(0.0, |twist| twist[at]))
-            };
+            let twists = lanes.map(|orbit| {
+                orbit.twists.iter().find(|(at, _)| *at == index).map(|(_, twist)| twist)
+            });
+            let law = law.as_ref().filter(|_| twists[0].is_some());
+            let count = if law.is_some() { lanes[0].set.coefficients() } else { 0 };
+            let coefficient = |at: usize| twists.map(|twist| twist.map_or(0.0, |twist| twist[at]));
             let constant = connection.law.stiffness(0.0);
             let mut stiffness = Rows::zeros(TERMS);
             stiffness[0] = inverse.map(|inverse| constant * inverse * inverse);
